@@ -2,10 +2,11 @@
 
 use crate::errors::{InputError, of_any, of_deciding};
 use crate::work::{self, Job, Told};
-use anyhow::{Context, bail};
+use anyhow::{Context, bail, ensure};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::collections::BTreeMap;
+use std::fs::File;
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::sync::{Mutex, PoisonError};
@@ -175,6 +176,10 @@ fn source_of(
     match (nodes, from_file) {
         (Some(nodes), None) => source(nodes, edges, necessary, minimal),
         (None, Some(path)) if edges.is_none() && !necessary && !minimal => {
+            // Otherwise a file that is not there would be one without graphs.
+            let file = File::open(&path).and_then(|file| file.metadata());
+            let file = file.with_context(|| path.display().to_string())?;
+            ensure!(!file.is_dir(), "{}: is a directory", path.display());
             Ok(Source::File { path })
         }
         (None, Some(_)) => {

@@ -6,7 +6,7 @@ from typing import Any, Iterable, List, Literal, Optional, Tuple, Union, overloa
 
 from . import _native
 from ._arguments import limits, one_of, whole_if
-from ._errors import Error
+from ._errors import Error, InputError
 from ._graph import Graph, as_graph
 from ._progress import Progress, shown
 from ._question import chosen_model, wanted
@@ -127,6 +127,8 @@ def verify_all(
         contraction=contraction,
         counting=counting,
     )
+    if isinstance(graphs, (Graph, Verdict, str)) or hasattr(graphs, "edges"):
+        raise InputError("graphs: give a list of graphs, also of one")
     tracks = {**asked, "model": "calibrated"}
     found: List[Any] = []
     # Camera-point graphs are calibrated: by the question that is asked of them.

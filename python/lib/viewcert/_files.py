@@ -236,7 +236,8 @@ class Archive:
     verified : int
         How many were verified.
     rejected, too_large : tuple of NotVerified
-        Those that were rejected, and those that take more than the limits allow.
+        Those that were rejected, and those that take more than the limits allow. A file that is damaged is
+        among the rejected, at the line that could not be read, and the others are checked all the same.
     graphs : int
         How many graphs those are about that were verified.
     verdicts : dict
