@@ -269,6 +269,7 @@ pub(crate) struct Counted {
 }
 
 /// The counts of a size, by their names.
+#[derive(Default)]
 #[pyclass(frozen, get_all, module = "viewcert._native")]
 pub(crate) struct Census {
     /// What was counted, in words.
@@ -313,8 +314,7 @@ pub(crate) fn census(
         let settings = settings(counted.solutions, counted.prime, counted.seed);
         let options = settings.options(stop.clone())?;
         if counted.verdicts {
-            let blocks = Blocks::new(&source, counted.seed, KERNELS, Shard::default(), None);
-            let blocks = blocks.context("verdicts are counted of candidates of a size")?;
+            let blocks = Blocks::new(&source, counted.seed, KERNELS, Shard::default(), None)?;
             told.expects(what, blocks.kernels());
             return of_verdicts(&source, &blocks, &options, &progress, counted.listed);
         }
@@ -325,6 +325,15 @@ pub(crate) fn census(
     };
     let found: anyhow::Result<Census> = job.run(py, move || threads.install(work))?;
     found.map_err(|error| of_any(&error))
+}
+
+/// A table of the program as text.
+pub(crate) fn text(
+    write: impl FnOnce(&mut Vec<u8>) -> std::io::Result<()>,
+) -> anyhow::Result<String> {
+    let mut out = Vec::new();
+    write(&mut out)?;
+    Ok(String::from_utf8(out)?)
 }
 
 /// Counts finite-solvable candidates alone.
@@ -361,16 +370,13 @@ fn of_verdicts(
         tally,
         seconds: None,
     };
-    let mut out = Vec::new();
-    table::write_verdicts(&mut out, &[row])?;
     Ok(Census {
         name: source.name(),
         counts: counts.into(),
-        solutions: BTreeMap::new(),
         digest,
         listed: listed.then_some(lines),
-        malformed: Vec::new(),
-        table: String::from_utf8(out)?,
+        table: text(|out| table::write_verdicts(out, &[row]))?,
+        ..Census::default()
     })
 }
 
@@ -424,15 +430,13 @@ fn of_entries(
         solutions: solutions.clone(),
         seconds: None,
     };
-    let mut out = Vec::new();
-    table::write(&mut out, &[row])?;
     Ok(Census {
         name: source.name(),
         counts: counts.into(),
         solutions,
-        digest: None,
         listed: counted.listed.then_some(lines),
         malformed,
-        table: String::from_utf8(out)?,
+        table: text(|out| table::write(out, &[row]))?,
+        ..Census::default()
     })
 }

@@ -5,12 +5,13 @@ from __future__ import annotations
 import json
 import os
 from dataclasses import dataclass
-from typing import Any, Dict, List, Optional, Sequence, Tuple
+from typing import Any, Dict, List, Optional, Sequence, Tuple, get_args
 
 from ._arguments import one_of, whole
 from ._errors import InputError
 from ._convert import Node
 from ._graph import Path
+from ._types import Lost, Strength, Value
 from ._verdict import Verdict, verify
 
 _Pair = Tuple[Node, Node]
@@ -35,7 +36,7 @@ class Weak:
     nodes: Tuple[Node, ...]
     component: int
     why: str
-    strength: str
+    strength: Strength
 
 
 @dataclass(frozen=True)
@@ -144,7 +145,7 @@ class Threshold:
     components: int
     single_pairs: int
     largest: int
-    value: str
+    value: Value
 
 
 @dataclass(frozen=True)
@@ -188,7 +189,7 @@ class Break:
 
     component: int
     without: Tuple[Any, ...]
-    strength: str
+    strength: Strength
 
 
 @dataclass(frozen=True)
@@ -210,8 +211,8 @@ class Implied:
     count: int
     beyond_components: int
     pairs: Tuple[Tuple[Node, Node], ...]
-    strength: str
-    complete: str
+    strength: Strength
+    complete: Strength
 
 
 def _decided(verdict: Any) -> Verdict[Any]:
@@ -232,7 +233,7 @@ def _known(numbers: Optional[Sequence[int]]) -> Optional[Tuple[int, ...]]:
     return None if numbers is None else tuple(numbers)
 
 
-def weak(verdict: Any, of: str = "pairs") -> List[Weak]:
+def weak(verdict: Any, of: Lost = "pairs") -> List[Weak]:
     """The pairs without any one of which a component falls apart.
 
     Parameters
@@ -254,7 +255,7 @@ def weak(verdict: Any, of: str = "pairs") -> List[Weak]:
     >>> [item.nodes for item in viewcert.weak(verdict)]
     [(0, 1), (0, 2), (1, 2)]
     """
-    one_of("of", of, ("pairs", "images"))
+    one_of("of", of, get_args(Lost))
     verdict = _decided(verdict)
     by_text = verdict.graph._by_text()
     return [
@@ -306,7 +307,7 @@ def surplus(verdict: Any) -> Dict[Tuple[Node, Node], Dict[str, Any]]:
     return pairs
 
 
-def redundant(verdict: Any, lost: int = 1, of: str = "pairs") -> List[Break]:
+def redundant(verdict: Any, lost: int = 1, of: Lost = "pairs") -> List[Break]:
     """The components that do not stay one whatever is lost.
 
     Parameters
@@ -333,7 +334,7 @@ def redundant(verdict: Any, lost: int = 1, of: str = "pairs") -> List[Break]:
     >>> viewcert.redundant(complete[1:], 2)[0].without
     ((0, 2), (0, 3))
     """
-    one_of("of", of, ("pairs", "images"))
+    one_of("of", of, get_args(Lost))
     lost = whole("lost", lost, 1, 2)
     verdict = _decided(verdict)
     by_text = verdict.graph._by_text()
