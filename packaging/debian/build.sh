@@ -4,8 +4,8 @@
 #
 #   packaging/debian/build.sh [--binary] [FOLDER]
 #
-# Needs cargo, dpkg-dev and debhelper. Where cargo is from rustup and not a package of Debian, --binary asks
-# for -d, which does not look for packages: set DPKG_FLAGS=-d.
+# Needs cargo, dpkg-dev, debhelper and Python 3.11, and with --binary help2man. Where cargo is from rustup and not a
+# package of Debian, --binary asks for -d, which does not look for packages: set DPKG_FLAGS=-d.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 binary=
