@@ -10,12 +10,11 @@ trap 'rm -rf "$out"' EXIT
 
 if [ "${1:-}" = --verify ]; then
     cargo publish --dry-run --locked "${all[@]}" --target-dir "$out/target"
-    packed=$out/target/package
-else
-    cargo package --quiet --locked --allow-dirty --no-verify "${all[@]}" --target-dir "$out/target" 2>"$out/said" ||
-        { cat "$out/said" && exit 1; }
-    packed=$out/target/package
 fi
+# Publishing leaves nothing to look at.
+cargo package --quiet --locked --allow-dirty --no-verify "${all[@]}" --target-dir "$out/target" 2>"$out/said" ||
+    { cat "$out/said" && exit 1; }
+packed=$out/target/package
 
 mkdir "$out/crates"
 for crate in "$packed"/*.crate; do

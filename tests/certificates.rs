@@ -2,7 +2,10 @@
 //! nothing else.
 
 use crate::common::{Run, TABLE_1, cycle, data, geng, root, verify, verify_with};
+use flate2::Compression;
+use flate2::write::GzEncoder;
 use serde_json::{Value, json};
+use std::io::Write;
 use std::path::Path;
 
 /// The third graph of docs/theory.md, Example 5.14: the pairs 34 and 56 are implied.
@@ -623,6 +626,25 @@ fn folders_and_lists_are_checked_whole() {
         "{}",
         run.out
     );
+
+    // What cannot be read to its end, or is no certificate, keeps nobody from the others.
+    let mut packed = GzEncoder::new(Vec::new(), Compression::default());
+    packed.write_all(lines.as_bytes()).unwrap();
+    let mut packed = packed.finish().unwrap();
+    let sum = packed.len() - 5;
+    packed[sum] ^= 0xff;
+    std::fs::write(path.join("sub/b.jsonl"), &lines).unwrap();
+    std::fs::write(path.join("b.jsonl.gz"), packed).unwrap();
+    std::fs::write(path.join("e.json"), "hello").unwrap();
+    let run = verify(&["check", path.to_str().unwrap()]);
+    assert_eq!(run.code, 1);
+    for said in [
+        "b.jsonl.gz:3: the file cannot be read from here on: ",
+        "e.json:1: this is no certificate ",
+        "7 certificates verified, 2 rejected",
+    ] {
+        assert!(run.out.contains(said), "{}", run.out);
+    }
 
     let empty = tempfile::tempdir().unwrap();
     assert_eq!(verify(&["check", empty.path().to_str().unwrap()]).code, 2);

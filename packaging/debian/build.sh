@@ -4,8 +4,8 @@
 #
 #   packaging/debian/build.sh [--binary] [FOLDER]
 #
-# Needs cargo, dpkg-dev and debhelper. Where cargo is from rustup and not a package of Debian, --binary asks
-# for -d, which does not look for packages: set DPKG_FLAGS=-d.
+# Needs cargo, dpkg-dev, debhelper and Python 3.11, and with --binary help2man. Where cargo is from rustup and not a
+# package of Debian, --binary asks for -d, which does not look for packages: set DPKG_FLAGS=-d.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 binary=
@@ -24,7 +24,8 @@ epoch=$(git -C "$root" log -1 --format=%ct)
 # What git has, without what the program does not need.
 git -C "$root" archive HEAD -- Cargo.toml Cargo.lock LICENSE-MIT LICENSE-APACHE README.md CHANGELOG.md src crates \
     docs examples packaging | tar -x -C "$source"
-# The workshop and the Python package are not built here, nor what tests need: their crates are not vendored.
+# The workshop and the Python package are not built here, nor what tests need, nor arithmetic by GMP (the LGPL, and
+# manuals under the GFDL): their crates are not vendored.
 python3 - "$source" <<'PYTHON'
 import pathlib
 import re
@@ -35,6 +36,7 @@ for path in [pathlib.Path(sys.argv[1]) / "Cargo.toml", *pathlib.Path(sys.argv[1]
     text = text.replace(', "paper", "python"]', "]")
     text = re.sub(r"\n\[dev-dependencies\]\n.*?(?=\n\[)", "\n", text, flags=re.S)
     text = re.sub(r"\n\[\[test\]\]\n(?:.+\n)*", "\n", text)
+    text = re.sub(r"(?m)^(?:gmp|rug) = .*\n", "", text)
     path.write_text(text)
 PYTHON
 (
@@ -45,9 +47,14 @@ PYTHON
     cargo vendor --quiet --locked --versioned-dirs vendor
     printf '%s\n' '[source.crates-io]' 'replace-with = "vendored"' '[source.vendored]' 'directory = "vendor"' \
         >.cargo/config.toml
-    cargo metadata --format-version 1 --offline |
-        python3 -c 'import json, sys; print(*sorted({p["license"] or "see " + p["name"] for p in json.load(sys.stdin)["packages"]}), sep="\n")' \
-            >packaging/debian/licences
+    # Of all that is vendored, also of what is not built here.
+    python3 - >packaging/debian/licences <<'PYTHON'
+import pathlib
+import tomllib
+
+crates = (tomllib.loads(path.read_text())["package"] for path in pathlib.Path("vendor").glob("*/Cargo.toml"))
+print(*sorted({crate.get("license", "see " + crate["name"]) for crate in crates}), sep="\n")
+PYTHON
     cp -r packaging/debian debian
     rm debian/build.sh
     sed "s/@VERSION@/$version/; s/@DATE@/$(date -u -R -d "@$epoch")/" debian/changelog.in >debian/changelog

@@ -2,10 +2,11 @@
 
 use crate::errors::{InputError, of_any, of_deciding};
 use crate::work::{self, Job, Told};
-use anyhow::{Context, bail};
+use anyhow::{Context, bail, ensure};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::collections::BTreeMap;
+use std::fs::File;
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::sync::{Mutex, PoisonError};
@@ -175,6 +176,10 @@ fn source_of(
     match (nodes, from_file) {
         (Some(nodes), None) => source(nodes, edges, necessary, minimal),
         (None, Some(path)) if edges.is_none() && !necessary && !minimal => {
+            // Otherwise a file that is not there would be one without graphs.
+            let file = File::open(&path).and_then(|file| file.metadata());
+            let file = file.with_context(|| path.display().to_string())?;
+            ensure!(!file.is_dir(), "{}: is a directory", path.display());
             Ok(Source::File { path })
         }
         (None, Some(_)) => {
@@ -264,6 +269,7 @@ pub(crate) struct Counted {
 }
 
 /// The counts of a size, by their names.
+#[derive(Default)]
 #[pyclass(frozen, get_all, module = "viewcert._native")]
 pub(crate) struct Census {
     /// What was counted, in words.
@@ -308,8 +314,7 @@ pub(crate) fn census(
         let settings = settings(counted.solutions, counted.prime, counted.seed);
         let options = settings.options(stop.clone())?;
         if counted.verdicts {
-            let blocks = Blocks::new(&source, counted.seed, KERNELS, Shard::default(), None);
-            let blocks = blocks.context("verdicts are counted of candidates of a size")?;
+            let blocks = Blocks::new(&source, counted.seed, KERNELS, Shard::default(), None)?;
             told.expects(what, blocks.kernels());
             return of_verdicts(&source, &blocks, &options, &progress, counted.listed);
         }
@@ -320,6 +325,15 @@ pub(crate) fn census(
     };
     let found: anyhow::Result<Census> = job.run(py, move || threads.install(work))?;
     found.map_err(|error| of_any(&error))
+}
+
+/// A table of the program as text.
+pub(crate) fn text(
+    write: impl FnOnce(&mut Vec<u8>) -> std::io::Result<()>,
+) -> anyhow::Result<String> {
+    let mut out = Vec::new();
+    write(&mut out)?;
+    Ok(String::from_utf8(out)?)
 }
 
 /// Counts finite-solvable candidates alone.
@@ -356,16 +370,13 @@ fn of_verdicts(
         tally,
         seconds: None,
     };
-    let mut out = Vec::new();
-    table::write_verdicts(&mut out, &[row])?;
     Ok(Census {
         name: source.name(),
         counts: counts.into(),
-        solutions: BTreeMap::new(),
         digest,
         listed: listed.then_some(lines),
-        malformed: Vec::new(),
-        table: String::from_utf8(out)?,
+        table: text(|out| table::write_verdicts(out, &[row]))?,
+        ..Census::default()
     })
 }
 
@@ -419,15 +430,13 @@ fn of_entries(
         solutions: solutions.clone(),
         seconds: None,
     };
-    let mut out = Vec::new();
-    table::write(&mut out, &[row])?;
     Ok(Census {
         name: source.name(),
         counts: counts.into(),
         solutions,
-        digest: None,
         listed: counted.listed.then_some(lines),
         malformed,
-        table: String::from_utf8(out)?,
+        table: text(|out| table::write(out, &[row]))?,
+        ..Census::default()
     })
 }

@@ -1,7 +1,7 @@
 //! The independent checker.
 
 use crate::decided::{known_displacements, of_words};
-use crate::errors::{InputError, of_any, of_checking};
+use crate::errors::{InputError, Rejected, of_any, of_checking};
 use crate::graph::Graph;
 use crate::work::{self, Job};
 use anyhow::Context;
@@ -12,6 +12,7 @@ use viewcert::Known;
 use viewcert::certificate::hex;
 use viewcert::graph::{Displacements, sha256};
 use viewcert::intrinsics::Sensors;
+use viewcert_check::program::{is_certificate, no_certificate};
 use viewcert_check::{
     BaseLines, Certificate, Failure, IntrinsicsCertificate, Limits, Strength, Unreadable,
 };
@@ -169,6 +170,9 @@ pub(crate) fn check(
         (None, Some(file)) => Given::File(file),
         (None, None) => Given::Held,
     };
+    if !is_certificate(&certificate) {
+        return Err(Rejected::new_err(("", no_certificate(false))));
+    }
     let limits = limits(max_operations);
     let threads = work::threads()?;
     let checked = Job::new(py)?.run(py, move || {

@@ -65,6 +65,9 @@ impl Cameras {
     fn in_file(py: Python<'_>, graph: &Graph, model: &str, path: PathBuf) -> PyResult<Self> {
         let (input, model) = (Arc::clone(&graph.0), of_name(model)?);
         let shown = path.display().to_string();
+        if let Err(error) = path.metadata() {
+            return Err(InputError::new_err(format!("{shown}: {error}")));
+        }
         let found = Job::new(py)?.run(py, move || cameras_beside(&path, &input, model))?;
         let none = || InputError::new_err(format!("{shown}: there are no cameras in it"));
         let found = found

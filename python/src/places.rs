@@ -39,12 +39,14 @@ impl Holders {
         Self { starts, lists }
     }
 
+    #[inline]
     fn of(&self, node: u32) -> &[i32] {
         &self.lists[self.starts[node as usize]..self.starts[node as usize + 1]]
     }
 
     /// The component that holds both nodes. Two components share at most one node, so there is at
     /// most one. O(k log l) for a node in k of them and one in l >= k.
+    #[inline]
     fn both(&self, a: u32, b: u32) -> Option<i32> {
         let (few, many) = match (self.of(a), self.of(b)) {
             (a, b) if a.len() <= b.len() => (a, b),
@@ -77,6 +79,7 @@ impl<'g> Rows<'g> {
         }
     }
 
+    #[inline]
     fn has(&self, &(a, b): &(u32, u32)) -> bool {
         let (i, j) = (a.min(b), a.max(b));
         let row = self.starts.get(i as usize..i as usize + 2);

@@ -1,6 +1,6 @@
 //! Shards of the catalog: written, completed, merged.
 
-use crate::catalog::{settings, source};
+use crate::catalog::{settings, source, text};
 use crate::errors::{InputError, Rejected, of_any};
 use crate::work::{self, Job, Told};
 use anyhow::Context;
@@ -57,8 +57,7 @@ impl Share {
         let (source, shard, outputs) = (self.source()?, self.shard()?, Outputs::default());
         if self.verdicts {
             let size = self.part.unwrap_or(KERNELS);
-            let blocks = Blocks::new(&source, self.seed, size, shard, Some(&self.folder));
-            let blocks = blocks.context("verdicts are counted of candidates of a size")?;
+            let blocks = Blocks::new(&source, self.seed, size, shard, Some(&self.folder))?;
             if prepare {
                 return blocks.prepare(&outputs, note);
             }
@@ -142,9 +141,8 @@ pub(crate) fn catalog_merge(
         });
         let merged = threads.install(|| merged(&folder, recheck))?;
         let agrees = merged.agrees();
-        let mut out = Vec::new();
-        table::write_merged(&mut out, merged)?;
-        Ok((String::from_utf8(out)?, agrees))
+        let table = text(|out| table::write_merged(out, merged))?;
+        Ok((table, agrees))
     };
     let (table, agrees) = job.run(py, work)?.map_err(|error| of_any(&error))?;
     if agrees {

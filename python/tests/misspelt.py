@@ -27,6 +27,17 @@ if verdict.strength == "proved":  # type: ignore[comparison-overlap]
     pass
 if viewcert.check(b"").value == "not-solvable":  # type: ignore[comparison-overlap]
     pass
+viewcert.weak(verdict, of="edges")  # type: ignore[arg-type]
+viewcert.redundant(verdict, of="image")  # type: ignore[arg-type]
+viewcert.check_all("folder", errors="ignore")  # type: ignore[arg-type]
+for entry in viewcert.catalog(5):
+    if entry.value == "not-finite":  # type: ignore[comparison-overlap]
+        pass
+for row in viewcert.sweep(verdict, [15]):
+    if row.value == "finite":  # type: ignore[comparison-overlap]
+        pass
+graph, model, places = viewcert.examples.degenerate("square")
+viewcert.verify(graph, model=model)
 
 # Nodes keep their type.
 of_names: List[FrozenSet[str]] = verdict.components

@@ -82,8 +82,14 @@ def test_the_step_that_failed_is_named(change: Callable[[Any], None], step: str)
 
 @pytest.mark.parametrize("text", [b"", b"{", b"\xff", b"null", b"[]"])
 def test_what_is_no_certificate_is_rejected(text: bytes) -> None:
-    with pytest.raises(viewcert.Rejected):
+    with pytest.raises(viewcert.Rejected, match=r"this is no certificate .*`viewcert.verify\(graph\).save\(path\)`"):
         viewcert.check(text)
+
+
+def test_a_certificate_that_was_cut_off_is_rejected() -> None:
+    certificate = viewcert.verify(PAIRS).certificate()
+    with pytest.raises(viewcert.Rejected, match="EOF while parsing"):
+        viewcert.check(certificate[: len(certificate) // 2])
 
 
 def test_what_is_no_graph_is_no_rejection(tmp_path: pathlib.Path) -> None:

@@ -106,6 +106,34 @@ def test_an_archive_that_was_tampered_with(tmp_path: pathlib.Path) -> None:
         viewcert.check_all(folder, errors="raise")
 
 
+def test_an_archive_with_damaged_files_is_checked_to_its_end(tmp_path: pathlib.Path) -> None:
+    """A file that cannot be read is not verified, and keeps nobody from the others."""
+    folder = archive(tmp_path)
+    whole = viewcert.check_all(folder).verified
+    path = folder / "n06-refuted.jsonl.gz"
+    lines = gzip.decompress(path.read_bytes()).splitlines(keepends=True)
+    # The checksum at the end is wrong: all lines are there, and the file is not as it was written.
+    flipped = bytearray(path.read_bytes())
+    flipped[-5] ^= 0xFF
+    path.write_bytes(bytes(flipped))
+    found = viewcert.check_all(folder)
+    (bad,) = found.rejected
+    assert bad.file == str(path) and bad.line == len(lines) + 1
+    assert bad.reason.startswith("the file cannot be read from here on: ")
+    assert found.verified == whole and found.complete is False and not found.is_good
+    assert any(line.startswith(f"CHANGED {path}") for line in found.manifest)
+    # Cut off in the middle, and no text at all: the other file is verified all the same.
+    (folder / "cut.jsonl.gz").write_bytes(gzip.compress(b"".join(lines))[:-100])
+    (folder / "note.json").write_text("hello")
+    os.remove(path)
+    found = viewcert.check_all(folder)
+    assert [pathlib.Path(one.file).name for one in found.rejected] == ["cut.jsonl.gz", "note.json"]
+    assert found.rejected[1].reason.startswith("this is no certificate ")
+    assert found.verified >= whole - len(lines) > 0
+    with pytest.raises(viewcert.Rejected, match="cut.jsonl.gz"):
+        viewcert.check_all(folder, errors="raise")
+
+
 def test_an_archive_with_a_file_missing(tmp_path: pathlib.Path) -> None:
     folder = archive(tmp_path)
     os.remove(folder / "n05-finite-solvable.jsonl.gz")
@@ -133,6 +161,8 @@ def test_what_certificates_suppose(tmp_path: pathlib.Path) -> None:
 
 
 def test_no_archive(tmp_path: pathlib.Path) -> None:
+    with pytest.raises(viewcert.InputError, match=r"missing: No such file or directory$"):
+        viewcert.check_all(tmp_path / "missing")
     with pytest.raises(viewcert.InputError, match="no certificates"):
         viewcert.check_all(tmp_path)
     (tmp_path / "manifest.json").write_text("{}")

@@ -177,9 +177,24 @@ def test_answers_about_intrinsics_travel() -> None:
     again = sent(found)
     assert again == found and again.certificate() == found.certificate()
     verified = viewcert.check_intrinsics(found)
-    assert sent(verified) == verified
+    assert sent(verified) == verified and len({verified, sent(verified)}) == 1
     # 11 * 3 - 15 and 3 * 5 intrinsics, of which a knows all and b all but one.
     assert repr(verified).startswith("<viewcert.VerifiedIntrinsics metric: 3 nodes, 3 pairs, rank ")
+
+
+def test_a_verdict_is_asked_about_its_graph() -> None:
+    """It is a sequence of components, which are sets of nodes and no pairs."""
+    verdict = viewcert.verify([(0, 1), (1, 2), (2, 3)])
+    assert len(verdict) == 3 and all(len(component) == 2 for component in verdict)
+    for model in ("projective", "calibrated"):
+        again = viewcert.verify(verdict, model=model)  # type: ignore[call-overload]
+        assert again.graph is verdict.graph and again.model == model
+    triangles = viewcert.verify(TRIANGLES)
+    assert viewcert.verify_all([triangles]) == [triangles]
+    assert viewcert.models(triangles)["projective"].graph == triangles.graph
+    assert viewcert.conditions(triangles) == viewcert.conditions(TRIANGLES)
+    assert viewcert.audit(triangles).verdict.graph == triangles.graph
+    assert viewcert.check(triangles.certificate(), triangles).sha256 == triangles.graph.sha256
 
 
 def test_networkx_gets_it_back() -> None:

@@ -213,9 +213,9 @@ def test_what_to_do_is_what_the_program_says(
 
 def test_a_refused_question_says_what_is_missing(tmp_path: pathlib.Path) -> None:
     triangle = [(0, 1), (0, 2), (1, 2)]
-    with pytest.raises(viewcert.InputError, match="only a COLMAP database has"):
+    with pytest.raises(viewcert.InputError, match=r"from_database reads them, and viewcert\.Graph\(graph, inliers="):
         viewcert.sweep(triangle, [15])
-    with pytest.raises(viewcert.InputError, match="no image has this name"):
+    with pytest.raises(viewcert.InputError, match="7 is no node of the graph; .* such as 0"):
         viewcert.explain(triangle, 7)
     (tmp_path / "precious.txt").write_text("mine")
     with pytest.raises(viewcert.InputError, match="which no export has written"):

@@ -30,8 +30,7 @@ pub(super) fn run(
             arguments.part.unwrap_or(KERNELS),
             arguments.shard,
             arguments.out.as_deref(),
-        );
-        let blocks = blocks.context("--verdicts counts candidates of a size")?;
+        )?;
         let mut print = |lines: Vec<String>| -> Result<()> {
             let mut each = lines.iter();
             each.try_for_each(|line| writeln!(out, "{line}"))

@@ -1,16 +1,17 @@
 //! Many certificates: files with one a line, folders, and by their manifests whether all are there.
 
 use super::checker;
-use anyhow::{Context, Result, ensure};
+use anyhow::{Result, ensure};
 use flate2::read::MultiGzDecoder;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
-use std::io::{BufRead, BufReader, Read};
+use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
+use std::{fs, iter};
 use viewcert_catalog::folder::{Completeness, Listing, is_list};
 use viewcert_catalog::manifest::Contents;
-use viewcert_check::Failure;
+use viewcert_check::program::{is_certificate, no_certificate};
+use viewcert_check::{Failure, Rejection};
 use viewcert_session::printable;
 
 /// Certificates that are read before they are checked together.
@@ -45,11 +46,12 @@ pub struct Archive {
     pub completeness: Option<Completeness>,
 }
 
-/// Checks every certificate of every file; each must hold its graph. `tell` says, after each piece of news,
-/// whether to go on.
+/// Checks every certificate of every file; each must hold its graph. A file that cannot be read, or not to
+/// its end, is rejected at the line that is missing, and keeps nobody from the others. `tell` says, after each
+/// piece of news, whether to go on.
 ///
 /// # Errors
-/// If a file cannot be read, or the files hold no certificates; those of `tell`.
+/// If the files hold no certificates; those of `tell`.
 pub fn check_archive(
     listing: &Listing,
     tell: &mut dyn FnMut(News<'_>) -> Result<()>,
@@ -58,19 +60,14 @@ pub fn check_archive(
     let mut graphs = BTreeSet::new();
     let mut found: BTreeMap<&Path, Contents> = BTreeMap::new();
     for (file, _) in &listing.files {
-        let named = || file.display().to_string();
         tell(News::File(file))?;
-        let mut lines = certificates(file).with_context(named)?;
+        let mut lines = certificates(file);
         let mut of_file = BTreeSet::new();
         let contents = found.entry(file).or_default();
         let mut line = 0;
         loop {
-            let batch = lines.by_ref().take(BATCH);
-            let batch: Vec<Vec<u8>> = batch.collect::<std::io::Result<_>>().with_context(named)?;
-            if batch.is_empty() {
-                break;
-            }
-            let outcomes: Vec<_> = batch.par_iter().map(|text| checker::check(text)).collect();
+            let (batch, broken) = up_to(BATCH, &mut lines);
+            let outcomes: Vec<_> = batch.par_iter().map(|text| check(text)).collect();
             for outcome in outcomes {
                 line += 1;
                 let proved = match outcome {
@@ -93,6 +90,13 @@ pub fn check_archive(
                 of_file.insert(proved.sha256);
             }
             tell(News::Done(batch.len() as u64))?;
+            if let Some(error) = &broken {
+                archive.rejected += 1;
+                tell(News::NotVerified(file, line + 1, &unreadable(error)))?;
+            }
+            if broken.is_some() || batch.len() < BATCH {
+                break;
+            }
         }
         contents.graphs = of_file.len() as u64;
         graphs.append(&mut of_file);
@@ -107,8 +111,19 @@ pub fn check_archive(
             *archive.verdicts.entry(verdict.clone()).or_default() += count;
         }
     }
-    archive.completeness = listing.completeness(&found)?;
+    archive.completeness = listing.completeness(&found);
     Ok(archive)
+}
+
+/// The independent checker's answer on a certificate; of what is none the reason says what one is.
+fn check(text: &[u8]) -> Result<checker::Proved, Failure> {
+    if is_certificate(text) {
+        return checker::check(text);
+    }
+    Err(Failure::Rejected(Rejection {
+        step: String::new(),
+        reason: no_certificate(false).to_owned(),
+    }))
 }
 
 /// Why one is not verified, in words that can be printed.
@@ -119,19 +134,42 @@ pub(super) fn reason(failure: &Failure) -> String {
     })
 }
 
-/// The certificates of a file, one after another.
-fn certificates(
-    file: &Path,
-) -> std::io::Result<Box<dyn Iterator<Item = std::io::Result<Vec<u8>>>>> {
+/// The certificates of a file, one after another, or why the next one cannot be read.
+type Lines = Box<dyn Iterator<Item = io::Result<Vec<u8>>>>;
+
+/// The certificates of a file; after an error there are none.
+fn certificates(file: &Path) -> Lines {
     if !is_list(file) {
-        return Ok(Box::new(std::iter::once(fs::read(file))));
+        return Box::new(iter::once(fs::read(file)));
     }
-    let input = fs::File::open(file)?;
+    let input = match fs::File::open(file) {
+        Ok(input) => input,
+        Err(error) => return Box::new(iter::once(Err(error))),
+    };
     let input: Box<dyn Read> = match file.extension() {
         Some(extension) if extension == "gz" => Box::new(MultiGzDecoder::new(input)),
         _ => Box::new(input),
     };
-    Ok(Box::new(
-        BufReader::with_capacity(1 << 16, input).split(b'\n'),
-    ))
+    Box::new(BufReader::with_capacity(1 << 16, input).split(b'\n'))
+}
+
+/// The next certificates of a file, at most so many, and why there is not another one if that is an error.
+fn up_to(most: usize, lines: &mut Lines) -> (Vec<Vec<u8>>, Option<io::Error>) {
+    let mut found = Vec::new();
+    while found.len() < most {
+        match lines.next() {
+            Some(Ok(line)) => found.push(line),
+            Some(Err(error)) => return (found, Some(error)),
+            None => break,
+        }
+    }
+    (found, None)
+}
+
+/// What cannot be read is not verified.
+fn unreadable(error: &io::Error) -> Failure {
+    Failure::Rejected(Rejection {
+        step: String::new(),
+        reason: format!("the file cannot be read from here on: {error}"),
+    })
 }

@@ -24,10 +24,11 @@ impl Listing {
     /// All that is at or below a path.
     ///
     /// # Errors
-    /// If a folder cannot be read, or a manifest is none.
+    /// If there is nothing, a folder cannot be read, or a manifest is none.
     pub fn new(path: &Path) -> Result<Self> {
         let mut listing = Self::default();
-        if path.is_dir() {
+        let is_folder = fs::metadata(path).with_context(|| path.display().to_string())?;
+        if is_folder.is_dir() {
             listing.folder(path, None)?;
         } else {
             listing.files.push((path.to_owned(), None));
@@ -98,12 +99,9 @@ impl Listing {
     /// Holds the manifests against what was `found` in the files: a line for every file that is
     /// missing, extra or changed, and one for each manifest. No lines where there is no
     /// manifest.
-    ///
-    /// # Errors
-    /// If a file cannot be read.
-    pub fn completeness(&self, found: &BTreeMap<&Path, Contents>) -> Result<Option<Completeness>> {
+    pub fn completeness(&self, found: &BTreeMap<&Path, Contents>) -> Option<Completeness> {
         if self.manifests.is_empty() {
-            return Ok(None);
+            return None;
         }
         let mut lines = Vec::new();
         let mut complete = true;
@@ -116,10 +114,14 @@ impl Listing {
                     continue;
                 }
                 let digest = File::open(&path).and_then(manifest::digest_of);
-                let digest = digest.with_context(|| path.display().to_string())?;
                 let contents = found.get(path.as_path());
-                if digest != entry.sha256 {
-                    lines.push(format!("CHANGED {}: another SHA-256", name(&path)));
+                let changed = match digest {
+                    Err(error) => Some(format!("it cannot be read: {error}")),
+                    Ok(digest) if digest != entry.sha256 => Some("another SHA-256".to_owned()),
+                    Ok(_) => None,
+                };
+                if let Some(changed) = changed {
+                    lines.push(format!("CHANGED {}: {changed}", name(&path)));
                 } else if contents != entry.certificates.as_ref() {
                     lines.push(format!(
                         "CHANGED {}: {}, and the manifest says {}",
@@ -149,7 +151,7 @@ impl Listing {
                 format!("{}: {differences} to its manifest of {files}", name(folder))
             });
         }
-        Ok(Some(Completeness { lines, complete }))
+        Some(Completeness { lines, complete })
     }
 }
 

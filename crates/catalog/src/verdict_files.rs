@@ -50,18 +50,21 @@ pub struct Blocks<'a> {
 
 impl<'a> Blocks<'a> {
     /// The blocks of a shard, of so many kernels each; with a folder they are written there, and
-    /// those that an earlier run has written are not counted again. `None` if the source is not that of a size.
+    /// those that an earlier run has written are not counted again.
+    ///
+    /// # Errors
+    /// If the source is not that of a size.
     pub fn new(
         source: &'a Source,
         seed: u64,
         kernels_per_block: u32,
         shard: Shard,
         folder: Option<&'a Path>,
-    ) -> Option<Self> {
+    ) -> Result<Self> {
         let Source::Size { candidates, .. } = source else {
-            return None;
+            bail!("verdicts are counted of candidates of a size");
         };
-        Some(Self {
+        Ok(Self {
             candidates,
             run: Run::of_verdicts(source.described(), seed, kernels_per_block),
             shard,

@@ -5,11 +5,13 @@ from __future__ import annotations
 import json
 import os
 from dataclasses import dataclass
-from typing import Any, Dict, List, Optional, Sequence, Tuple
+from typing import Any, Dict, List, Optional, Sequence, Tuple, get_args
 
+from ._arguments import one_of, whole
 from ._errors import InputError
 from ._convert import Node
 from ._graph import Path
+from ._types import Lost, Strength, Value
 from ._verdict import Verdict, verify
 
 _Pair = Tuple[Node, Node]
@@ -34,7 +36,7 @@ class Weak:
     nodes: Tuple[Node, ...]
     component: int
     why: str
-    strength: str
+    strength: Strength
 
 
 @dataclass(frozen=True)
@@ -143,7 +145,7 @@ class Threshold:
     components: int
     single_pairs: int
     largest: int
-    value: str
+    value: Value
 
 
 @dataclass(frozen=True)
@@ -187,7 +189,7 @@ class Break:
 
     component: int
     without: Tuple[Any, ...]
-    strength: str
+    strength: Strength
 
 
 @dataclass(frozen=True)
@@ -209,8 +211,8 @@ class Implied:
     count: int
     beyond_components: int
     pairs: Tuple[Tuple[Node, Node], ...]
-    strength: str
-    complete: str
+    strength: Strength
+    complete: Strength
 
 
 def _decided(verdict: Any) -> Verdict[Any]:
@@ -231,7 +233,7 @@ def _known(numbers: Optional[Sequence[int]]) -> Optional[Tuple[int, ...]]:
     return None if numbers is None else tuple(numbers)
 
 
-def weak(verdict: Any, of: str = "pairs") -> List[Weak]:
+def weak(verdict: Any, of: Lost = "pairs") -> List[Weak]:
     """The pairs without any one of which a component falls apart.
 
     Parameters
@@ -253,6 +255,7 @@ def weak(verdict: Any, of: str = "pairs") -> List[Weak]:
     >>> [item.nodes for item in viewcert.weak(verdict)]
     [(0, 1), (0, 2), (1, 2)]
     """
+    one_of("of", of, get_args(Lost))
     verdict = _decided(verdict)
     by_text = verdict.graph._by_text()
     return [
@@ -304,7 +307,7 @@ def surplus(verdict: Any) -> Dict[Tuple[Node, Node], Dict[str, Any]]:
     return pairs
 
 
-def redundant(verdict: Any, lost: int = 1, of: str = "pairs") -> List[Break]:
+def redundant(verdict: Any, lost: int = 1, of: Lost = "pairs") -> List[Break]:
     """The components that do not stay one whatever is lost.
 
     Parameters
@@ -331,10 +334,10 @@ def redundant(verdict: Any, lost: int = 1, of: str = "pairs") -> List[Break]:
     >>> viewcert.redundant(complete[1:], 2)[0].without
     ((0, 2), (0, 3))
     """
+    one_of("of", of, get_args(Lost))
+    lost = whole("lost", lost, 1, 2)
     verdict = _decided(verdict)
     by_text = verdict.graph._by_text()
-    if of not in ("pairs", "images"):
-        raise InputError(f"of={of!r}: pairs or images are lost")
     what = str(lost) if of == "pairs" else f"images:{lost}"
     found = _asked(verdict, "redundant", redundant=what)
 
@@ -368,6 +371,7 @@ def implied(verdict: Any, most: int = 1000) -> Implied:
     >>> found.count, found.pairs
     (1, ((0, 3),))
     """
+    most = whole("most", most, 0, 2**32 - 1)
     verdict = _decided(verdict)
     by_text = verdict.graph._by_text()
     found = _asked(verdict, "implied", implied=most)
@@ -421,8 +425,7 @@ def suggest(verdict: Any, most: int = 10) -> List[Suggestion]:
     >>> viewcert.suggest(chain, 1)[0].gain
     2
     """
-    if most < 1:
-        raise InputError(f"most={most}: ask for one suggestion at least")
+    most = whole("most", most, 1, 2**32 - 1)
     verdict = _decided(verdict)
     found = _asked(verdict, "suggestions", suggest=most)
     return _suggestions(found, verdict.graph._by_text())
@@ -452,6 +455,9 @@ def explain(verdict: Any, node: Node) -> Explanation:
     """
     verdict = _decided(verdict)
     by_text = verdict.graph._by_text()
+    if node not in verdict.graph:
+        known = verdict.graph.nodes[0]
+        raise InputError(f"explain: {node!r} is no node of the graph; nodes are those of the input, such as {known!r}")
     found = _asked(verdict, "explain", explain=verdict.graph._text_of(node))
     outside = (
         Outside(by_text[pair["image"]], pair["inliers"], _places(pair["reaches"]))
@@ -473,12 +479,12 @@ def explain(verdict: Any, node: Node) -> Explanation:
 
 
 def sweep(verdict: Any, thresholds: Sequence[int]) -> List[Threshold]:
-    """Decides a database again with other least numbers of inliers.
+    """Decides a graph again with other least numbers of inliers.
 
     Parameters
     ----------
     verdict : Verdict
-        Of a graph of :func:`from_database`, or that graph.
+        Of a graph of :func:`from_database`, or of a :class:`Graph` with `inliers`; or that graph.
     thresholds : sequence of int
         The least numbers.
 
@@ -487,7 +493,14 @@ def sweep(verdict: Any, thresholds: Sequence[int]) -> List[Threshold]:
     InputError
         If the numbers of inliers are not known.
     """
-    rows = _asked(_decided(verdict), "sweep", sweep=list(thresholds)) if thresholds else []
+    least = [whole("thresholds", threshold, 0, 2**32 - 1) for threshold in thresholds]
+    verdict = _decided(verdict)
+    if verdict.graph.cameras is None and verdict.graph.inliers is None:
+        raise InputError(
+            "sweep: the numbers of inliers of the pairs are not known; viewcert.from_database reads them, and "
+            "viewcert.Graph(graph, inliers='...') takes them from attributes of pairs"
+        )
+    rows = _asked(verdict, "sweep", sweep=least) if least else []
     return [Threshold(value=row.pop("verdict"), **row) for row in rows]
 
 
@@ -502,8 +515,7 @@ def margin(verdict: Any, draws: int = 10) -> List[Margin]:
     draws : int
         How often, for every share: 1 to 10,000.
     """
-    if not 1 <= draws <= 10_000:
-        raise InputError(f"draws={draws}: give a number from 1 to 10,000")
+    draws = whole("draws", draws, 1, 10_000)
     found = _asked(_decided(verdict), "margin", margin=draws)
     missing = tuple(found["missing"])
     return [

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any, Iterable, List, Literal, Optional, Tuple, Union, overload
+from typing import Any, Iterable, List, Literal, Optional, Tuple, Union, get_args, overload
 
 from . import _native
 from ._arguments import limits, one_of, whole_if
-from ._errors import Error
+from ._errors import Error, InputError
 from ._graph import Graph, as_graph
 from ._progress import Progress, shown
 from ._question import chosen_model, wanted
-from ._types import Counting, Model
+from ._types import Counting, Errors, Model
 from ._verdict import Verdict
 
 
@@ -67,7 +67,7 @@ def verify_all(
     prime: Optional[int] = None,
     contraction: bool = True,
     counting: bool = True,
-    errors: Literal["raise", "return"] = "raise",
+    errors: Errors = "raise",
     threads: Optional[int] = None,
     time_limit: Optional[float] = None,
     memory_limit: Optional[int] = None,
@@ -112,7 +112,7 @@ def verify_all(
     >>> viewcert.verify_all(graphs, errors="return")[2]
     InputError('graph 2: camera 0 is paired with itself; remove the pair ...')
     """
-    one_of("errors", errors, ("raise", "return"))
+    one_of("errors", errors, get_args(Errors))
     count = whole_if("threads", threads, 1, 4096)
     seconds, memory = limits(time_limit, memory_limit)
     asked = wanted(
@@ -127,6 +127,8 @@ def verify_all(
         contraction=contraction,
         counting=counting,
     )
+    if isinstance(graphs, (Graph, Verdict, str)) or hasattr(graphs, "edges"):
+        raise InputError("graphs: give a list of graphs, also of one")
     tracks = {**asked, "model": "calibrated"}
     found: List[Any] = []
     # Camera-point graphs are calibrated: by the question that is asked of them.

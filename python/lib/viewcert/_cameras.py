@@ -498,7 +498,7 @@ def check_at_cameras(
             "cameras: which centres they have depends on the model; give the verdict, which says both "
             "graph and model"
         )
-    given = None if graph is None else as_graph(graph.graph if isinstance(graph, Verdict) else graph)
+    given = None if graph is None else as_graph(graph)
     found = _native.check_at_cameras(
         text,
         graph=None if given is None else given._native,

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass, field
-from typing import Any, Dict, Iterator, List, Optional, Tuple
+from typing import Any, Dict, Iterator, List, Optional, Tuple, cast
 
 from . import _native
 from ._arguments import whole, whole_if
 from ._errors import InputError, TooLarge
 from ._graph import Path, as_graph
 from ._progress import Progress, shown
+from ._types import Value
 from ._words import noted
 
 
@@ -44,7 +45,7 @@ class Entry:
     """
 
     graph6: str
-    value: str
+    value: Value
     strength: str
     rank: int
     rank_strength: str
@@ -103,24 +104,40 @@ def catalog(
     >>> [(entry.graph6, entry.value) for entry in viewcert.catalog(5)]
     [('D{S', 'not-finite-solvable'), ('D]o', 'solvable')]
     """
-    found = _native.Candidates(
-        whole_if("nodes", nodes, 0, 2**31 - 1),
-        from_file=None if from_file is None else os.fspath(from_file),
-        edges=whole_if("edges", edges, 0, 2**31 - 1),
-        necessary=necessary,
-        minimal=minimal,
-        solutions=solutions,
-        prime=whole_if("prime", prime, 5, 2**62 - 1),
-        seed=whole("seed", seed, 0, 2**64 - 1),
-    )
-    return map(_entry, found)
+    asked = _asked(nodes, edges, necessary, minimal, solutions, prime, seed)
+    return map(_entry, _native.Candidates(**asked, from_file=_path_if(from_file)))
+
+
+def _asked(
+    nodes: Optional[int],
+    edges: Optional[int],
+    necessary: bool,
+    minimal: bool,
+    solutions: bool,
+    prime: Optional[int],
+    seed: int,
+) -> Dict[str, Any]:
+    """Which candidates are asked for and how they are decided, whatever comes of them."""
+    return {
+        "nodes": whole_if("nodes", nodes, 0, 2**31 - 1),
+        "edges": whole_if("edges", edges, 0, 2**31 - 1),
+        "necessary": necessary,
+        "minimal": minimal,
+        "solutions": solutions,
+        "prime": whole_if("prime", prime, 5, 2**62 - 1),
+        "seed": whole("seed", seed, 0, 2**64 - 1),
+    }
+
+
+def _path_if(path: Optional[Path]) -> Optional[str]:
+    return None if path is None else os.fspath(path)
 
 
 def _entry(found: tuple[list[str], bytes]) -> Entry:
-    (graph6, value, strength, rank, rank_strength, components, maximal, hub, solutions), certificate = found
+    (graph6, said, strength, rank, rank_strength, components, maximal, hub, solutions), certificate = found
     return Entry(
         graph6=graph6,
-        value=value,
+        value=cast("Value", said),
         strength=strength,
         rank=int(rank),
         rank_strength=rank_strength,
@@ -216,16 +233,10 @@ def census(
     if verdicts and (from_file is not None or minimal or solutions or prime is not None):
         raise InputError("verdicts=True counts candidates of a size alone: leave out from_file, minimal, solutions and prime")
     counted = {
-        "nodes": whole_if("nodes", nodes, 0, 2**31 - 1),
-        "from_file": None if from_file is None else os.fspath(from_file),
-        "edges": whole_if("edges", edges, 0, 2**31 - 1),
-        "necessary": necessary,
-        "minimal": minimal,
-        "solutions": solutions,
+        **_asked(nodes, edges, necessary, minimal, solutions, prime, seed),
+        "from_file": _path_if(from_file),
         "verdicts": verdicts,
         "listed": graphs,
-        "prime": whole_if("prime", prime, 5, 2**62 - 1),
-        "seed": whole("seed", seed, 0, 2**64 - 1),
         "threads": whole_if("threads", threads, 1, 2**16 - 1),
     }
     with shown(progress) as callback:
@@ -345,30 +356,15 @@ def catalog_shards(
     ['seconds', '7', 'nodes,', '9', 'edges,', 'biconnected', '20']
     """
     count = whole("count", count, 1, 2**63 - 1)
-    nodes, edges = whole("nodes", nodes, 0, 2**31 - 1), whole_if("edges", edges, 0, 2**31 - 1)
-    prime, seed = whole_if("prime", prime, 5, 2**62 - 1), whole("seed", seed, 0, 2**64 - 1)
-    part = whole_if("part", part, 1, 2**32 - 1)
-    threads = whole_if("threads", threads, 1, 2**16 - 1)
-    shards = [
-        Shard(
-            folder=os.fspath(folder),
-            nodes=nodes,
-            index=index,
-            count=count,
-            edges=edges,
-            necessary=necessary,
-            minimal=minimal,
-            solutions=solutions,
-            verdicts=verdicts,
-            certificates=certificates,
-            part=part,
-            solvable_only=solvable_only,
-            prime=prime,
-            seed=seed,
-            threads=threads,
-        )
-        for index in range(1, count + 1)
-    ]
+    of_all = {
+        **_asked(whole("nodes", nodes, 0, 2**31 - 1), edges, necessary, minimal, solutions, prime, seed),
+        "verdicts": verdicts,
+        "certificates": certificates,
+        "part": whole_if("part", part, 1, 2**32 - 1),
+        "solvable_only": solvable_only,
+        "threads": whole_if("threads", threads, 1, 2**16 - 1),
+    }
+    shards = [Shard(os.fspath(folder), index=index, count=count, **of_all) for index in range(1, count + 1)]
     if verdicts and (minimal or solutions or certificates or solvable_only or prime is not None):
         raise InputError(
             "verdicts=True counts alone: leave out minimal, solutions, certificates, solvable_only and prime"

@@ -14,7 +14,7 @@ from ._errors import InputError, Rejected, TooLarge
 from ._graph import Path
 from ._progress import Progress
 from ._limits import limits
-from ._types import Format, Pipeline
+from ._types import Errors, Format, Pipeline
 from ._words import in_python
 
 
@@ -236,7 +236,8 @@ class Archive:
     verified : int
         How many were verified.
     rejected, too_large : tuple of NotVerified
-        Those that were rejected, and those that take more than the limits allow.
+        Those that were rejected, and those that take more than the limits allow. A file that is damaged is
+        among the rejected, at the line that could not be read, and the others are checked all the same.
     graphs : int
         How many graphs those are about that were verified.
     verdicts : dict
@@ -274,7 +275,7 @@ class Archive:
         )
 
 
-def check_all(path: Path, *, errors: str = "return", progress: Progress = None) -> Archive:
+def check_all(path: Path, *, errors: Errors = "return", progress: Progress = None) -> Archive:
     """Verifies many certificates with the independent checker: a file with one on each line (``.jsonl``,
     ``.jsonl.gz``), or a folder of files, whose ``manifest.json`` says what belongs to it.
 
@@ -308,7 +309,7 @@ def check_all(path: Path, *, errors: str = "return", progress: Progress = None) 
     >>> viewcert.check_all(folder)
     <viewcert.Archive 9 verified, 0 rejected, 0 too large, 9 graphs, no manifest>
     """
-    one_of("errors", errors, ("return", "raise"))
+    one_of("errors", errors, get_args(Errors))
     with limits(progress=progress):
         found = _native.check_all(os.fspath(path))
 

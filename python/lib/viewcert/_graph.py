@@ -334,9 +334,13 @@ def numbered(
 
 
 def as_graph(graph: Any, name: Optional[str] = None) -> Graph[Any]:
-    """Any graph as a `Graph`."""
+    """Any graph as a `Graph`, and of a verdict its graph."""
     if isinstance(graph, Graph):
         return graph
+    # A verdict is a sequence of its components, which are no pairs.
+    of_verdict = getattr(graph, "graph", None)
+    if isinstance(of_verdict, Graph):
+        return of_verdict
     return Graph(graph, name="graph" if name is None else name)
 
 

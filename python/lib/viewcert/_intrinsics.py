@@ -57,6 +57,9 @@ class VerifiedIntrinsics:
     sha256: str
     text: str = field(repr=False)
 
+    def __hash__(self) -> int:
+        return hash((self.sha256, self.classes_sha256, self.value, self.rank))
+
     def __repr__(self) -> str:
         size = f"{self.nodes} nodes, {self.edges} pairs"
         least, most = self.rank, self.rank_at_most
@@ -89,7 +92,7 @@ class Prior:
     """
 
     nodes: frozenset[Node]
-    unknown: str
+    unknown: Class
     metric: bool
     proved: bool
     rank: int

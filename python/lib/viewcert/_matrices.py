@@ -14,7 +14,6 @@ from ._arguments import one_of
 from ._cameras import Cameras, texts_of
 from ._graph import as_graph
 from ._types import MatrixName
-from ._verdict import Verdict
 
 if TYPE_CHECKING:
     import scipy.sparse
@@ -121,7 +120,7 @@ def rigidity_matrix(
     5
     """
     one_of("matrix", matrix, get_args(MatrixName))
-    given = graph.graph if isinstance(graph, Verdict) else as_graph(graph)
+    given = as_graph(graph)
     model = "affine" if matrix == "R" else "calibrated" if matrix == "N" else "projective"
     texts, width = texts_of(given, cameras, model)
     (rows, columns), (above, below), shape = _native.rigidity_matrix(given._native, matrix, texts, width)

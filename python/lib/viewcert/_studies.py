@@ -360,7 +360,7 @@ class Audit(_Said):
 
     agree: bool
     verdict: Verdict[Any]
-    float_value: str
+    float_value: Literal["solvable", "not-solvable", "undecided"]
     smallest_eigenvalue: float
     smallest_singular_value: float
     margin_decades: Optional[float]

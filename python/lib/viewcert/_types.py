@@ -22,6 +22,12 @@ Strength = Literal["proof", "error-bound"]
 #: How thoroughly solutions are counted.
 Counting = Literal["quick", "full"]
 
+#: What is left out, or lost.
+Lost = Literal["pairs", "images"]
+
+#: What becomes of an error of one of many.
+Errors = Literal["raise", "return"]
+
 #: Formats of files that hold one graph.
 Format = Literal[
     "edges", "matlab", "matrix-market", "numpy", "match-list", "glomap", "1dsfm", "openmvg-pairs",

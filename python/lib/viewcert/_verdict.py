@@ -830,8 +830,8 @@ def verify(
         A graph of networkx or rustworkx (there nodes are its indices), a sparse adjacency matrix
         of scipy (nodes are its rows), an integer array of shape (m, 2) (nodes are the integers
         that occur), a data frame of pandas or polars with two columns (or ``source`` and
-        ``target``), an iterable of pairs of hashable nodes, which dicts of attributes may follow, or
-        a :class:`Graph`.
+        ``target``), an iterable of pairs of hashable nodes, which dicts of attributes may follow,
+        a :class:`Graph`, or a :class:`Verdict`, which stands for its graph.
     model : {'projective', 'calibrated', 'affine', 'focal'}, optional
         What is known of the cameras: nothing, their intrinsics, that they are affine, or all
         intrinsics but the focal lengths. The default is projective, of camera-point graphs

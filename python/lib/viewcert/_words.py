@@ -26,6 +26,7 @@ def _columns(found: Match[str]) -> str:
 
 #: Whole phrases first, then options with a value, then all others.
 _PHRASES: Tuple[Tuple[str, Union[str, Callable[[Match[str]], str]]], ...] = (
+    (r"`verify GRAPH --certificate FILE`", "`viewcert.verify(graph).save(path)`"),
     (r"`verify database\.db`", "`viewcert.from_database('database.db')`"),
     (r"`verify convert GRAPH --to graph6`", "`networkx.write_graph6`"),
     (r"verify GRAPH --given FILE", "`parts` and `displacements` of `viewcert.verify`"),
@@ -45,6 +46,7 @@ _PHRASES: Tuple[Tuple[str, Union[str, Callable[[Match[str]], str]]], ...] = (
     (r"(?<![\w-])--([a-z][a-z0-9-]*)", lambda found: _name(found[1])),
 )
 
+_NUMBER = re.compile(r" \(os error \d+\)")
 _COMPILED = [(re.compile(pattern), words) for pattern, words in _PHRASES]
 
 
@@ -53,7 +55,9 @@ def _name(option: str) -> str:
 
 
 def in_python(message: str) -> str:
-    """A message with arguments and functions of this package for the options of the program."""
+    """A message with arguments and functions of this package for the options of the program, and without the
+    numbers of the system's errors, which their words say."""
+    message = _NUMBER.sub("", message)
     if "verify" in message or "--" in message or "`" in message:
         for pattern, words in _COMPILED:
             message = pattern.sub(words, message)

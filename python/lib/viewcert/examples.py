@@ -13,6 +13,7 @@ from typing import Any, Callable, Dict, List, Tuple
 
 from ._errors import InputError
 from ._graph import Graph
+from ._types import Decided
 
 __all__ = [
     "courtyard",
@@ -111,7 +112,7 @@ def degenerate_names() -> List[str]:
     return sorted(_DEGENERATE)
 
 
-def degenerate(name: str) -> Tuple[Graph[str], str, Dict[str, _Place]]:
+def degenerate(name: str) -> Tuple[Graph[str], Decided, Dict[str, _Place]]:
     """A graph that is determined at cameras in general position, and is not at the given ones.
 
     Returns
@@ -147,7 +148,7 @@ def degenerate(name: str) -> Tuple[Graph[str], str, Dict[str, _Place]]:
 
 
 #: A name, the model, the pairs, and the centres. Sources are in examples/degenerate.
-_DEGENERATE: Dict[str, Tuple[str, str, str]] = {
+_DEGENERATE: Dict[str, Tuple[Decided, str, str]] = {
     # Affine cameras whose directions are on a cone of degree two.
     "conic": (
         "affine",
