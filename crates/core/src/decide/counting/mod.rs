@@ -1,9 +1,10 @@
-//! Upper bounds on the rank that hold for all cameras, by counting nodes
+//! Upper bounds on the rank, by counting nodes and cycles
 //! (docs/theory.md, section 5).
 //!
 //! *Partition*: the rank is at most the sum of `required(n_B)` over the blocks of any
 //! partition of the edges. *Hub*: a block of projective cameras loses more where the
-//! plane flows into a node are too few for the parts that meet there.
+//! plane flows into a node are too few for the parts that meet there. *Points*: so it does where
+//! flows of few edges, seen from up to four nodes, have few cycles to run in.
 //!
 //! What the search covers: the partition into the given components; a hub at any node
 //! of a block with the components as parts and, failing that, with the members (bodies
@@ -14,7 +15,8 @@
 //! where at most 16 parts meet. Rank is then taken off the block by the best single hub. Where that
 //! does not meet the lower bound and there are at most 64 components, all this is tried again on
 //! the parts whose ranks add up to that of the piece, and then with each one of the components left
-//! out as a block of its own: what is rigid without it may be a smaller block that has a hub.
+//! out as a block of its own: what is rigid without it may be a smaller block that has a hub. Points
+//! are looked for where all else has failed, in blocks without a hub.
 
 mod hub;
 mod points;
