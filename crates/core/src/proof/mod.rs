@@ -37,7 +37,7 @@ pub enum Unproved {
     Known,
     /// A graph with one node.
     OneNode,
-    /// An upper bound that no blocks show.
+    /// An upper bound that blocks, hubs and overlaps alone do not show.
     UpperBound,
     /// The rank rests on draws, with an error bound.
     ErrorBound,
@@ -54,7 +54,9 @@ impl fmt::Display for Unproved {
         match self {
             Self::Known => f.write_str("not with known parts or displacements"),
             Self::OneNode => f.write_str("a graph with one node has nothing to prove"),
-            Self::UpperBound => f.write_str("an upper bound that no blocks show"),
+            Self::UpperBound => {
+                f.write_str("an upper bound that blocks, hubs and overlaps alone do not show")
+            }
             Self::ErrorBound => f.write_str("a rank that is known with an error bound only"),
             Self::Core(nodes) => write!(f, "a core of {nodes} nodes, of {LARGEST_CORE} at most"),
             Self::Record => f.write_str("a record of merges that uses a body twice"),
