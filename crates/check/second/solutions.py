@@ -585,22 +585,27 @@ class Support:
         moving = [row for row in rows if any(listed(side) is not None for side in sides[row])]
         fixed = [sides[row][0].generic & wanted for row in plus] + [sides[row][1].generic & wanted for row in minus_rows]
         fixed += [(sides[row][0].generic | sides[row][1].generic) & wanted for row in rows if row not in moving]
+        unknowns = [{listed(side) for side in sides[row]} for row in moving]
+        left = [[sum(f in found for found in unknowns[k:]) for f in range(len(exponent))] for k in range(len(moving) + 1)]
         # What is chosen in the first of these rows, and how often each unknown is still to be chosen.
         partial = [((), tuple(exponent))]
-        for row in moving:
-            self.meter.charge(SPARSE * len(partial) * (len(rows) + len(exponent)))
-            longer = []
-            for chosen, due in partial:
-                for side in sides[row]:
-                    f = listed(side)
-                    if f is None:
-                        longer.append(((*chosen, side), due))
-                    elif due[f]:
-                        longer.append(((*chosen, side), due[:f] + (due[f] - 1,) + due[f + 1 :]))
-            partial = longer
-        whole = [chosen for chosen, due in partial if not any(due)]
-        self.meter.charge(DENSE * 6 * len(cols) ** 2 * len(whole))
-        return any(match(fixed + [side.generic & wanted for side in chosen]) for chosen in whole)
+        while partial:
+            chosen, due = partial.pop()
+            self.meter.charge(SPARSE * (len(chosen) + len(due) + 1))
+            if any(owed > most for owed, most in zip(due, left[len(chosen)])):
+                continue
+            if len(chosen) == len(moving):
+                self.meter.charge(DENSE * 6 * len(cols) ** 2)
+                if match(fixed + [side.generic & wanted for side in chosen]):
+                    return True
+                continue
+            for side in sides[moving[len(chosen)]]:
+                f = listed(side)
+                if f is None:
+                    partial.append(((*chosen, side), due))
+                elif due[f]:
+                    partial.append(((*chosen, side), due[:f] + (due[f] - 1,) + due[f + 1 :]))
+        return False
 
     def polynomial(self, rows, plus, minus_rows, cols, degrees):
         """The coefficients of a minor, all by the same factor that is not zero; or none if it vanishes."""

@@ -198,6 +198,29 @@ def divided_set(lists, core, where):
 
 
 def circulating(edges):
-    """Section 7, points: those of some edges that lie on a cycle of them: without one its ends are still connected."""
-    whole = count_components(edges)
-    return {edge for edge in edges if count_components(edges - {edge} | {(v,) for v in edge}) == whole}
+    """Section 7, points: those of some edges that lie on a cycle of them: an edge outside of a spanning forest, and
+    those of the forest between its ends."""
+    links, up, depth = {}, {}, {}
+    for i, j in edges:
+        links.setdefault(i, []).append(j)
+        links.setdefault(j, []).append(i)
+    for start in links:
+        if start in up:
+            continue
+        up[start], depth[start], todo = None, 0, [start]
+        while todo:
+            x = todo.pop()
+            for y in links[x]:
+                if y not in up:
+                    up[y], depth[y] = x, depth[x] + 1
+                    todo.append(y)
+    found = set()
+    for x, y in edges:
+        if up[x] == y or up[y] == x:
+            continue
+        found.add((x, y))
+        while x != y:
+            x, y = (x, y) if depth[x] >= depth[y] else (y, x)
+            found.add((min(x, up[x]), max(x, up[x])))
+            x = up[x]
+    return found

@@ -1,10 +1,11 @@
 //! Coefficients of minors that are zero for generic centres: condition (S14) of section 12 (theory,
-//! Theorem 10.7).
+//! Theorems 10.7 and 10.23).
 
 use super::dense::ENTRY;
 use super::minors::Place;
 use super::system::Side;
 use crate::document::solutions::Minor;
+use crate::elimination::SPARSE;
 use crate::limits::Meter;
 use crate::rejection::Checked;
 
@@ -74,38 +75,48 @@ impl Pattern {
                 .collect()
         };
         let mut rows: Vec<Vec<usize>> = rest.into_iter().map(columns).collect();
-        self.choose(&open, &mut exponent.to_vec(), &mut rows, meter)
+        if exponent
+            .iter()
+            .zip(&self.with)
+            .any(|(due, left)| due > left)
+        {
+            return Ok(false);
+        }
+        let (mut due, mut left) = (exponent.to_vec(), self.with.clone());
+        self.choose(&open, [&mut due, &mut left], &mut rows, meter)
     }
 
+    /// Chooses in the rows that are open: of each unknown as many sides as are due, which are no more than the
+    /// rows left that have it.
     fn choose(
         &self,
         open: &[&Sides],
-        due: &mut [usize],
+        [due, left]: [&mut [usize]; 2],
         rows: &mut Vec<Vec<usize>>,
         meter: &Meter,
     ) -> Checked<bool> {
         let Some((sides, others)) = open.split_first() else {
-            if due.iter().any(|&due| due > 0) {
-                return Ok(false);
-            }
             meter.charge(ENTRY * 6 * (self.columns * self.columns) as u64)?;
             return Ok(have_transversal(rows, self.columns));
         };
-        meter.charge(1 + due.len() as u64)?;
+        let unknowns = || sides.iter().filter_map(|&(_, unknown)| unknown);
+        unknowns().for_each(|f| left[f] -= 1);
+        let mut found = false;
         for (columns, unknown) in *sides {
-            if unknown.is_some_and(|f| due[f] == 0) {
+            meter.charge(SPARSE * (2 + columns.len()) as u64)?;
+            if found || unknown.is_some_and(|f| due[f] == 0) {
                 continue;
             }
             unknown.iter().for_each(|&f| due[f] -= 1);
-            rows.push(columns.clone());
-            let found = self.choose(others, due, rows, meter)?;
-            rows.pop();
-            unknown.iter().for_each(|&f| due[f] += 1);
-            if found {
-                return Ok(true);
+            if unknowns().all(|f| due[f] <= left[f]) {
+                rows.push(columns.clone());
+                found = self.choose(others, [&mut *due, &mut *left], rows, meter)?;
+                rows.pop();
             }
+            unknown.iter().for_each(|&f| due[f] += 1);
         }
-        Ok(false)
+        unknowns().for_each(|f| left[f] += 1);
+        Ok(found)
     }
 
     /// The columns of the sides of a row that are not struck out: a side with an unknown whose

@@ -1,5 +1,5 @@
 //! Minors that are balanced: with their shift, every node is taken as often in each term (docs/theory.md,
-//! Lemma 10.23).
+//! Lemma 10.24).
 //!
 //! A term of a minor takes one side of each row that is whole and both of each that is freed. With a shift
 //! that takes the one side of a row left out, and of both sides of a freed row gives the one back, it is a

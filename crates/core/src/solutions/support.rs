@@ -108,7 +108,7 @@ impl MinorSpan {
         Some(collected.into_span(unknowns, exponents))
     }
 
-    /// The balanced minors in all unknowns without value, with one shift each (Lemma 10.23): in each term
+    /// The balanced minors in all unknowns without value, with one shift each (Lemma 10.24): in each term
     /// every node is taken as often. `which` says how often.
     pub(super) fn balanced(
         system: &System<'_>,
