@@ -15,6 +15,7 @@ use std::time::{Duration, Instant};
 use viewcert::Known;
 use viewcert::decide::{Calibrated, Options, decide};
 use viewcert::geometry::model::Model;
+use viewcert_advice::export::shell;
 use viewcert_advice::{Advice, Request, Shapes, foreseen};
 use viewcert_formats::colmap::{Database, DatabaseError};
 use viewcert_formats::error::{Problem, ReadError};
@@ -173,6 +174,14 @@ fn source(
                 database: None,
             });
         }
+        Err(ReadError {
+            file,
+            problem: ref problem @ Problem::Holds(ref inside),
+            ..
+        }) => {
+            let first = inside.first().map_or("", String::as_str);
+            bail!("{file}: {problem}; type `verify overview {}`", shell(first));
+        }
         Err(error) => return Err(error.into()),
     };
     let tracks = match &database {
@@ -281,7 +290,11 @@ fn overview(
         false => request.advise(outputs, input, verdict, seed, shapes, watch),
     };
     session.hide();
-    let advice = advice.with_context(|| input.name.clone())?;
+    let mut advice = advice.with_context(|| input.name.clone())?;
+    // What was matched in vain is no suggestion.
+    if let Some(suggestions) = &mut advice.suggestions {
+        suggestions.retain(|one| !one.was_in_vain());
+    }
     let of_pairs = source.pairs.as_ref().unwrap_or(input);
     let of_tracks = tracks.as_ref().map(|(input, verdict)| (*input, verdict));
     let frames = input.frames.as_ref();

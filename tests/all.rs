@@ -40,6 +40,7 @@ mod page_browser;
 mod pages;
 mod parts;
 mod paths;
+mod promises;
 mod proof;
 mod readers;
 mod readme;

@@ -576,6 +576,46 @@ fn a_message_for_everything_that_is_wrong() {
 }
 
 /// A program has the database open, and its last changes are in the log.
+/// A view may compute without end; tables are read, and nothing else.
+#[test]
+fn views_in_the_place_of_tables_are_refused() {
+    for (table, columns, tracks) in [
+        ("images", "image_id, name", false),
+        ("matches", "pair_id, rows", false),
+        ("two_view_geometries", "pair_id, rows", false),
+        ("KeyPoints", "image_id, rows", false),
+        ("cameras", "camera_id, prior_focal_length", false),
+        ("pose_priors", "image_id, position", false),
+        ("rig_sensors", "rig_id, sensor_id", false),
+        ("frame_data", "frame_id, data_id", true),
+    ] {
+        let made = Made::new(TABLES, &THREE);
+        made.pair(1, 2, &same(20), 2);
+        let others = ["rigs", "rig_sensors", "frames"]
+            .iter()
+            .filter(|other| tracks && **other != table);
+        for other in others {
+            made.execute(&format!("create table {other} (rig_id)"));
+        }
+        made.execute(&format!("drop table if exists {table}"));
+        made.execute(&format!(
+            "create view {table} as with recursive endless({columns}) as \
+             (select 1, 'a' union all select 1 + 1, 'b' from endless) select * from endless"
+        ));
+        let options = if tracks { &["--tracks"][..] } else { &[] };
+        refused(
+            &made.path(),
+            options,
+            &["not COLMAP's", "is a view, and tables are read here"],
+        );
+        refused(
+            &made.path(),
+            &["overview"],
+            &["is a view, and tables are read here"],
+        );
+    }
+}
+
 #[test]
 fn a_database_that_is_open_elsewhere() {
     let made = Made::new(TABLES, &THREE);

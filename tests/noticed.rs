@@ -53,7 +53,7 @@ fn surplus_by_hand() {
     assert_eq!(line["surplus"]["groups"]["larger"], larger);
     let said = text(GRAPH, &["--surplus"]);
     for line in [
-        "  surplus     15 pairs checked by the rest in all 7 equations (proved)\n",
+        "  surplus     15 pairs checked by the rest in all 7 equations if every other pair is right (proved)\n",
         "    5 pairs checked in 3 of 7\n",
         "    1 pair that nothing checks: an error there cannot be seen by anyone\n      a one\n",
         "    2 groups of pairs that check each other and nothing else; the largest has 17 pairs of 7 images\n",

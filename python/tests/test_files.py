@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gzip
+import html
 import json
 import os
 import pathlib
@@ -50,6 +51,27 @@ def test_an_overview_is_the_programs(database: pathlib.Path, program: Program) -
         viewcert.overview(database.parent / "nowhere.db")
     with pytest.raises(viewcert.InputError, match="min_inliers"):
         viewcert.overview(database, min_inliers=-1)
+
+
+def test_an_overview_shows_itself(database: pathlib.Path) -> None:
+    found = viewcert.overview(database)
+
+    def timeless(text: str) -> list[str]:
+        return [line for line in text.splitlines() if not line.startswith("  time ")]
+
+    assert timeless(str(found)) == timeless(found.report())
+    assert "if every pair is right" in str(found)
+    notebook = found._repr_html_()
+    assert notebook.startswith('<iframe srcdoc="') and notebook.count('"') == 4
+    page = html.unescape(notebook.split('"')[1])
+    assert timeless(page) == timeless(found.page()) and "<svg" in page
+    assert found.determined is True
+    # No camera of the synthetic rig has a prior focal length.
+    assert found.condition == "if every pair is right and the mapper finds 2 focal lengths"
+    verdict = viewcert.verify(viewcert.tracks_from_database(database))
+    assert verdict.value == "solvable"
+    assert verdict.conditions[0] == found.condition
+    assert repr(verdict).startswith(f"<viewcert.Verdict solvable {found.condition} (proof)")
 
 
 def test_lists_are_the_programs(tmp_path: pathlib.Path, program: Program) -> None:

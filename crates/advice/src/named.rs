@@ -157,6 +157,13 @@ pub struct Suggestion {
     pub enough: Option<Enough>,
 }
 
+impl Suggestion {
+    /// Whether one of its pairs was matched before, and no match was right.
+    pub fn was_in_vain(&self) -> bool {
+        self.tried.iter().flatten().any(|&word| word == "in-vain")
+    }
+}
+
 /// What COLMAP's mappers need by default, beside what is enough.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Needs {

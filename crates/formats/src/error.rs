@@ -453,6 +453,22 @@ pub enum Problem {
     /// A folder, where nobody has asked for tracks.
     #[error("this is a folder with a model of COLMAP: cameras, images and points")]
     Model,
+    /// Cameras, and no point that they see.
+    #[error(
+        "this is {what} with {} and no points: it says where they are, and not what they see",
+        viewcert::wording::counted(*.cameras, "camera")
+    )]
+    NoPoints {
+        /// What it is.
+        what: &'static str,
+        /// What to do about it.
+        advice: &'static str,
+        /// How many cameras.
+        cameras: usize,
+    },
+    /// A folder that is no model, and holds models or databases.
+    #[error("this is a folder that holds {}", .0.join(", "))]
+    Holds(Vec<String>),
     /// Something wrong with another file than the one that was named.
     #[error("{part}: {problem}")]
     Within {
@@ -553,7 +569,8 @@ impl Problem {
             Self::Unreadable(_) => "check its path and permissions",
             Self::Foreign { advice, .. }
             | Self::Own { advice, .. }
-            | Self::Doubtful { advice, .. } => advice,
+            | Self::Doubtful { advice, .. }
+            | Self::NoPoints { advice, .. } => advice,
             Self::Compressed(_) => {
                 "copy the file again, and test it (`gzip -t`, `bzip2 -t`, `xz -t`, `zstd -t`)"
             }
@@ -685,6 +702,7 @@ impl Problem {
             }
             Self::NoModel => "name the folder that has all files of the model",
             Self::Model => TRACKS,
+            Self::Holds(_) => "name one of these (a model is read with --tracks)",
             Self::Within { problem, .. } => problem.remedy(),
             Self::NoSuchVariable { .. } | Self::ChooseVariable { .. } => {
                 "name the adjacency matrix with --variable"

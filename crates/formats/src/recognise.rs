@@ -11,6 +11,7 @@ use crate::edge_list::is_image;
 use crate::error::{Problem, TRACKS};
 use crate::inflate::Compression;
 use crate::lines::{Encoding, trimmed};
+use crate::tracks::CAMERA_MODELS;
 use crate::{colmap, matlab, matrix_market, numpy, own, sparse6, tables, tracks};
 use viewcert::graph::graph6;
 
@@ -307,22 +308,10 @@ const FIRST_COMMENTS: [(&str, &str, &str); 7] = [
 const COLMAP: &str =
     "give COLMAP's database (`verify database.db`), or the folder of the model with --tracks";
 
-/// Camera models of COLMAP, the second field of a line in cameras.txt.
-const CAMERA_MODELS: [&str; 13] = [
-    "SIMPLE_PINHOLE",
-    "PINHOLE",
-    "SIMPLE_RADIAL",
-    "SIMPLE_RADIAL_FISHEYE",
-    "RADIAL",
-    "RADIAL_FISHEYE",
-    "OPENCV",
-    "OPENCV_FISHEYE",
-    "FULL_OPENCV",
-    "FOV",
-    "THIN_PRISM_FISHEYE",
-    "RAD_TAN_THIN_PRISM_FISHEYE",
-    "EQUIRECTANGULAR",
-];
+/// Whether this is a camera model of COLMAP, the second field of a line in cameras.txt.
+fn is_camera_model(word: &str) -> bool {
+    CAMERA_MODELS.iter().any(|&(name, _)| name == word)
+}
 
 /// Text that is surely no edge list.
 fn certain(head: &[u8]) -> Option<Problem> {
@@ -358,14 +347,14 @@ fn certain(head: &[u8]) -> Option<Problem> {
     }
     let words: Vec<&str> = first.split_whitespace().collect();
     if let [image, model, width, height, ..] = words[..]
-        && CAMERA_MODELS.contains(&model)
+        && is_camera_model(model)
         && !is_integer(image)
         && [width, height].iter().all(|word| is_integer(word))
     {
         return Some(foreign("a list of images with intrinsics", PAIRS));
     }
     if let [camera, model, width, height, _, ..] = words[..]
-        && CAMERA_MODELS.contains(&model)
+        && is_camera_model(model)
         && [camera, width, height].iter().all(|word| is_integer(word))
     {
         return Some(foreign("COLMAP's cameras.txt", COLMAP));

@@ -2,6 +2,7 @@
 //! (docs/theory.md, Corollary 13.4 and Theorem 13.23), what unknown focal lengths ask for, and which
 //! parts were taken for known.
 
+use crate::condition;
 use crate::intrinsics::IntrinsicsLine;
 use serde::Serialize;
 use std::collections::BTreeSet;
@@ -103,11 +104,14 @@ const SENSORS: &str = "sensors: images of one sensor have the same intrinsics, a
                        camera that is moved and not turned, or turned about one direction only, is not)";
 
 /// What unknown base lines that are the same in all frames determine.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct BaseLines {
     frames: usize,
     unknown: usize,
     verdict: &'static str,
+    /// What *solvable* rests on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    condition: Option<String>,
     rank: usize,
     rank_at_most: usize,
     rank_required: usize,
@@ -123,8 +127,12 @@ pub struct BaseLines {
 }
 
 impl BaseLines {
-    fn new(found: &SharedBaseLines, groups: usize) -> Self {
+    fn new(found: &SharedBaseLines, input: &NamedGraph) -> Self {
+        let groups = groups_turned(input);
+        let is_good = found.is_determined() && groups <= 1;
+        let condition = condition::of_photographs(input, Model::Calibrated);
         Self {
+            condition: condition.filter(|_| is_good),
             about_one_axis: found.about_one_axis,
             groups_not_turned: Some(groups).filter(|&groups| groups > 1),
             frames: found.frames,
@@ -158,9 +166,13 @@ impl BaseLines {
         let unknown = counted(self.unknown, "unknown base line");
         let frames = counted(self.frames, "frame");
         let answer = match self.verdict {
-            "solvable" => {
-                "solvable: the positions of all cameras and points are unique (proved)".into()
-            }
+            "solvable" => format!(
+                "solvable: the positions of all cameras and points are unique{} (proved)",
+                self.condition
+                    .iter()
+                    .map(|words| format!(" {words}"))
+                    .collect::<String>()
+            ),
             "open" if rank == rank_required => format!(
                 "open: the positions would be unique if rotations were known, but no pair of images and no \
                  known pose turns {} against each other",
@@ -227,7 +239,7 @@ pub fn base_lines(
     };
     let (frames, seed) = (frames.rig_frames(), Options::default().seed);
     let found = SharedBaseLines::new(&input.graph, verdict, &frames, seed, watch)?;
-    let found = found.map(|found| (BaseLines::new(&found, groups_turned(input)), found));
+    let found = found.map(|found| (BaseLines::new(&found, input), found));
     Ok(found.filter(|(found, _)| !(is_good && found.is_determined())))
 }
 

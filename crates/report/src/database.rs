@@ -26,6 +26,12 @@ pub struct DatabaseLine {
     /// Absent if there are none.
     #[serde(skip_serializing_if = "is_zero")]
     positions: usize,
+    #[serde(skip_serializing_if = "is_zero")]
+    focal_guessed: usize,
+    #[serde(skip_serializing_if = "is_zero")]
+    focal_shared: usize,
+    #[serde(skip_serializing_if = "is_zero")]
+    images_without_keypoints: usize,
     connected: Vec<usize>,
 }
 
@@ -76,6 +82,9 @@ impl From<&DatabaseFacts> for DatabaseLine {
             rigs: facts.rigs,
             version: facts.version,
             positions: facts.positions,
+            focal_guessed: facts.focal_guessed,
+            focal_shared: facts.focal_shared,
+            images_without_keypoints: facts.images_without_keypoints,
             connected: facts.connected.clone(),
         }
     }

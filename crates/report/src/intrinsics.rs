@@ -3,6 +3,7 @@
 //!
 //! In: sensors with their classes, what was found. Out: lines of a report, the member `intrinsics` of JSON.
 
+use crate::condition;
 use crate::priors::PriorsLine;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -22,6 +23,9 @@ pub struct IntrinsicsLine {
     /// What a certificate and its checkers call them by.
     classes_sha256: String,
     verdict: &'static str,
+    /// What it rests on, if the input is of photographs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    condition: Option<String>,
     /// Whether bounds meet: then all that is said is proved.
     proved: bool,
     rank: usize,
@@ -104,6 +108,7 @@ impl IntrinsicsLine {
             shared,
             classes_sha256: hex(&sensors.sha256()),
             verdict: found.verdict(),
+            condition: input.database.is_some().then(|| condition::if_right(input)),
             proved: found.is_proved(),
             rank: found.rank,
             rank_at_most: found.at_most,
@@ -164,11 +169,18 @@ impl IntrinsicsLine {
             count => format!(" ({})", counted(count, "shared sensor")),
         };
         format!(
-            "{}{sensors}: {answer}; {parts}; {} of {} determined{strength}",
+            "{}{sensors}: {answer}; {parts}; {} of {} determined{}{strength}",
             self.classes_in_words(),
             self.determined,
             self.determined + self.not_determined.len(),
+            self.condition()
         )
+    }
+
+    /// The condition, behind a blank, if there is one.
+    fn condition(&self) -> String {
+        let words = self.condition.iter();
+        words.map(|words| format!(" {words}")).collect()
     }
 
     /// "2 known, 3 focal".
@@ -189,10 +201,17 @@ impl IntrinsicsLine {
     /// Those of the writer.
     pub(crate) fn write(&self, out: &mut impl Write) -> io::Result<()> {
         let answer = match self.verdict {
-            "metric" => "metric: all cameras and intrinsics, up to similarities and finitely many choices (proved)".into(),
+            "metric" => format!(
+                "metric: all cameras and intrinsics, up to similarities and finitely many choices{} (proved)",
+                self.condition()
+            ),
             "not-metric" if self.conditions < 8 => format!(
                 "not metric: {} intrinsics put {} on the 8 numbers between a projective and a metric scene (proved)",
-                if self.is_shared() { "known and shared" } else { "known" },
+                if self.is_shared() {
+                    "known and shared"
+                } else {
+                    "known"
+                },
                 counted(self.conditions, "condition")
             ),
             "not-metric" => "not metric: infinitely many sets of cameras (proved)".into(),
@@ -212,8 +231,9 @@ impl IntrinsicsLine {
         let all = self.determined + self.not_determined.len();
         write!(
             out,
-            "  determined  the intrinsics of {} of {all}",
-            self.determined
+            "  determined  the intrinsics of {} of {all}{}",
+            self.determined,
+            self.condition()
         )?;
         match &self.not_determined[..] {
             [] => {}

@@ -142,6 +142,9 @@ impl DisplacementLine {
 #[derive(Serialize)]
 pub(super) struct AnswerLine {
     verdict: &'static str,
+    /// What a good answer about photographs rests on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    condition: Option<String>,
     strength: &'static str,
     error_log2: Option<i64>,
     because: String,
@@ -162,6 +165,7 @@ impl AnswerLine {
         let strength = verdict.value_claim().strength;
         Self {
             verdict: verdict.value.name(),
+            condition: text::condition(input, verdict),
             strength: strength.name(),
             error_log2: strength.error_log2(),
             because: text::reason(input, verdict),

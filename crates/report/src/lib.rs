@@ -10,6 +10,7 @@ pub mod audit;
 pub mod bars;
 #[cfg(feature = "studies")]
 pub mod comparison;
+mod condition;
 #[cfg(feature = "studies")]
 pub mod conditions;
 #[cfg(feature = "studies")]

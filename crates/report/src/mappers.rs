@@ -10,16 +10,18 @@ use viewcert_advice::mapper::{Beginning, Foreseen, Models, Sees, Thresholds};
 const SHOWN: usize = 8;
 const BEGINNINGS: usize = 3;
 
-/// Writes what each mapper will do; `wrapped` takes a title and words.
+/// Writes what each mapper will do; what is said to be determined is so under `condition`. `wrapped` takes a
+/// title and words.
 ///
 /// # Errors
 /// Those of the writer.
 pub(crate) fn write<W: Write>(
     out: &mut W,
     foreseen: &Foreseen,
+    condition: &str,
     wrapped: impl Fn(&mut W, &str, &str) -> io::Result<()>,
 ) -> io::Result<()> {
-    wrapped(out, "global", &global(foreseen))?;
+    wrapped(out, "global", &global(foreseen, condition))?;
     wrapped(out, "incremental", &incremental(foreseen))?;
     let models = &foreseen.incremental;
     if models.refused {
@@ -33,8 +35,8 @@ pub(crate) fn write<W: Write>(
     Ok(())
 }
 
-/// "one model of 15 of 16 images, all determined".
-fn global(foreseen: &Foreseen) -> String {
+/// "one model of 15 of 16 images, all determined if every pair is right".
+fn global(foreseen: &Foreseen, condition: &str) -> String {
     let global = &foreseen.global;
     let size = global.images.len();
     if size == 0 {
@@ -43,13 +45,13 @@ fn global(foreseen: &Foreseen) -> String {
     let images = all_of(size, global.of) + &in_frames(global.frames);
     let whole = global.parts.iter().any(|part| part.len() == size);
     if whole {
-        return format!("one model of {images}, all determined");
+        return format!("one model of {images}, all determined {condition}");
     }
     let sizes: Vec<usize> = global.parts.iter().map(Vec::len).collect();
     match sizes.len() {
         0 => format!("one model of {images}, and the tracks determine no two of them"),
         1 => format!(
-            "one model of {images}, of which the tracks determine {}",
+            "one model of {images}, of which the tracks determine {} {condition}",
             sizes[0]
         ),
         count => format!(

@@ -28,6 +28,25 @@ pub fn next(options: &ReadOptions, path: &Path, found: &Overview) -> Vec<Next> {
         return Vec::from_iter(margin);
     }
     let mut next = Vec::new();
+    if let Some(enough) = found.weak_pairs() {
+        let weaker = ReadOptions {
+            min_inliers: Some(enough),
+            ..options.clone()
+        };
+        return vec![
+            Next {
+                command: format!("verify overview {file}{}", options_of(&weaker)),
+                purpose: "the same, with pairs of so few inliers",
+            },
+            Next {
+                command: format!(
+                    "colmap global_mapper --database_path {file} --image_path images --output_path sparse \
+                     --GlobalMapper.min_num_matches {enough}"
+                ),
+                purpose: "global mapping with such pairs; incremental mapping asks for more points besides",
+            },
+        ];
+    }
     // These are about one graph, and a path may hold several.
     let single = found.name == path.display().to_string();
     if single && found.has_parts() && !found.is_one_part() {

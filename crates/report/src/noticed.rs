@@ -26,10 +26,10 @@ pub(crate) fn write(out: &mut impl Write, advice: &Advice) -> io::Result<()> {
 fn surplus(out: &mut impl Write, found: &Surpluses) -> io::Result<()> {
     let thing = found.of.trim_end_matches('s');
     let of = counted(found.checked, thing);
-    let full = found.full;
+    let (full, condition) = (found.full, found.condition);
     writeln!(
         out,
-        "  surplus     {of} checked by the rest in all {full} equations (proved)"
+        "  surplus     {of} checked by the rest in all {full} equations {condition} (proved)"
     )?;
     for surplus in (1..full).rev() {
         let some = found.items.iter().filter(|item| item.surplus == surplus);

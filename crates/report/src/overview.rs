@@ -8,7 +8,9 @@ use super::database::DatabaseLine;
 use super::json::{AnswerLine, GraphLine, write_line};
 use super::read::ReadLine;
 use super::tracks::TrackLine;
-use super::{Report, counted, database, mappers, narrow, part_names, size_of, text, tracks};
+use super::{
+    Report, condition, counted, database, mappers, narrow, part_names, size_of, text, tracks,
+};
 use crate::advice::{joints as write_joints, suggestions as write_suggestions};
 use crate::assumptions::BaseLines;
 use crate::intrinsics::IntrinsicsLine;
@@ -17,10 +19,12 @@ use std::cell::OnceCell;
 use std::collections::HashMap;
 use std::io::{self, Write};
 use std::time::Duration;
+use viewcert::graph::UnionFind;
 use viewcert_advice::Advice;
 use viewcert_advice::mapper::{Foreseen, Sees};
 use viewcert_advice::named::Suggestion;
 use viewcert_advice::special::Narrow;
+use viewcert_formats::colmap::{DatabaseFacts, Pipeline};
 use viewcert_formats::{NamedGraph, ReadAs, TrackOptions};
 
 /// How many parts are shown with their sizes.
@@ -230,10 +234,88 @@ impl Overview<'_> {
     }
 
     /// Whether the tracks, or without any the calibrated pairs, determine all images: none may be
-    /// without a pair.
+    /// without a pair, or with a focal length that is a guess and that mappers do not find.
     pub fn determined(&self) -> bool {
+        self.is_promised() && self.guessed() == 0 && self.no_model().is_none()
+    }
+
+    /// The same, whatever focal lengths are, and whether mappers make anything of it.
+    pub(crate) fn is_promised(&self) -> bool {
         let all_paired = self.wanted.images.len() == self.wanted.all as usize;
         all_paired && self.is_one_part()
+    }
+
+    /// What is known of the database, if it is one.
+    pub(crate) fn facts(&self) -> Option<&DatabaseFacts> {
+        let [pairs, _] = self.pairs.as_ref()?;
+        pairs.input.database.as_deref()
+    }
+
+    /// How many images have a focal length that is a guess and that mappers do not find.
+    fn guessed(&self) -> usize {
+        self.facts().map_or(0, |facts| facts.focal_guessed)
+    }
+
+    /// What everything that is promised rests on.
+    pub(crate) fn condition(&self) -> String {
+        self.decisive()
+            .map_or_else(String::new, |report| condition::of(report.input))
+    }
+
+    /// The same of what pairs alone determine.
+    fn condition_of_pairs(&self) -> String {
+        let pairs = self.pairs.as_ref();
+        pairs.map_or_else(String::new, |[pairs, _]| condition::of(pairs.input))
+    }
+
+    /// Why mappers make nothing of a database, where that is known beforehand.
+    pub(crate) fn no_model(&self) -> Option<String> {
+        let facts = self.facts()?;
+        if facts.pairs_used > 0 {
+            let paired = facts.images - facts.images_without_pair;
+            let why = "make no model: the database has no keypoints, and a mapper needs the places of what is \
+                       matched (`colmap feature_extractor` writes them)";
+            return (facts.images_without_keypoints == paired).then(|| why.to_owned());
+        }
+        let (pairs, least) = (counted(facts.pairs, "verified pair"), facts.min_inliers);
+        let configuration = match facts.pipeline {
+            Pipeline::Incremental => "",
+            Pipeline::Global => " and a configuration that global mapping takes",
+        };
+        let enough = match self.weak_pairs() {
+            Some(count) => format!(
+                "; with {count} they hang together as far as they can (--min-inliers {count}; in COLMAP \
+                 --Mapper.min_num_matches and --GlobalMapper.min_num_matches)"
+            ),
+            None => String::new(),
+        };
+        Some(format!(
+            "make no model: none of {pairs} has {}{configuration}{enough}",
+            counted(least as usize, "inlier")
+        ))
+    }
+
+    /// Where no pair is used: with how many inliers of a pair everything that is verified hangs together.
+    pub(crate) fn weak_pairs(&self) -> Option<u32> {
+        let [pairs, _] = self.pairs.as_ref()?;
+        self.facts().filter(|facts| facts.pairs_used == 0)?;
+        let matching = pairs.input.matching.as_ref()?;
+        let mut known: Vec<_> = matching
+            .others
+            .iter()
+            .filter(|pair| pair.inliers > 0)
+            .collect();
+        known.sort_by_key(|pair| std::cmp::Reverse(pair.inliers));
+        let mut parts = UnionFind::new(pairs.input.graph.nodes());
+        let joining = known.into_iter().filter(|pair| {
+            let (a, b) = pair.images;
+            parts.union(a as usize, b as usize)
+        });
+        let least = self.facts()?.min_inliers;
+        joining
+            .map(|pair| pair.inliers)
+            .last()
+            .filter(|&count| count < least)
     }
 
     /// Whether they determine all images that have a pair.
@@ -281,6 +363,7 @@ impl Overview<'_> {
     /// What follows for each kind of mapping, in words.
     fn follows(&self) -> Follows {
         let all = self.wanted.words();
+        let (condition, of_pairs) = (self.condition(), self.condition_of_pairs());
         let averaging = match self.averaging() {
             None => {
                 "of pairwise directions: tracks do not tell; it takes a list of pairs".to_owned()
@@ -289,11 +372,11 @@ impl Overview<'_> {
                 "of pairwise directions: there are no pairs".into()
             }
             Some(parts) if parts.whole => {
-                format!("of pairwise directions: the pairs determine all {all}")
+                format!("of pairwise directions: the pairs determine all {all} {of_pairs}")
             }
             Some(parts) => format!(
-                "of pairwise directions: the pairs determine {}, and not how these lie against each \
-                 other",
+                "of pairwise directions: the pairs determine {} {of_pairs}, and not how these lie against \
+                 each other",
                 parts.words()
             ),
         };
@@ -305,13 +388,10 @@ impl Overview<'_> {
                 "starts a new model where it cannot go on; pairs alone do not tell where".to_owned(),
             ],
             Some(parts) if parts.whole => [
-                format!(
-                    "the tracks determine all {all} at generic places, with right matches"
-                ),
-                format!(
-                    "starts a new model where it cannot go on; that the tracks determine all {all} is \
-                     necessary for one model, not sufficient"
-                ),
+                format!("the tracks determine all {all} at generic places {condition}"),
+                "starts a new model where it cannot go on; tracks that determine everything are necessary \
+                 for one model, not sufficient"
+                    .to_owned(),
             ],
             Some(parts) => [
                 format!(
@@ -352,8 +432,28 @@ impl Overview<'_> {
     pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
         writeln!(out, "{}", self.name)?;
         writeln!(out, "  read as     {}", self.read)?;
-        if let Some(foreseen) = &self.mappers {
-            mappers::write(out, foreseen, wrapped)?;
+        match (self.no_model(), &self.mappers) {
+            (Some(why), _) => wrapped(out, "mappers", &why)?,
+            (None, Some(foreseen)) => mappers::write(out, foreseen, &self.condition(), wrapped)?,
+            (None, None) => {}
+        }
+        if let guessed @ 1.. = self.guessed() {
+            let (images, have) = match guessed {
+                1 => (
+                    "1 image has a focal length that is a guess".to_owned(),
+                    "a camera",
+                ),
+                count => (
+                    format!("{count} images have focal lengths that are guesses"),
+                    "cameras",
+                ),
+            };
+            let words = format!(
+                "{images}, and {have} that no two others have: mappers rarely find these, and place images \
+                 wrong silently; give focal lengths (--ImageReader.camera_params), or one camera for all \
+                 images if it was one (--ImageReader.single_camera 1)"
+            );
+            wrapped(out, "warning", &words)?;
         }
         if let Some([projective, calibrated]) = &self.pairs {
             match &projective.input.database {
@@ -462,8 +562,8 @@ impl Overview<'_> {
         write_joints(out, self.joints)
     }
 
-    /// What to match, the first for each gap.
-    fn write_suggested(&self, out: &mut impl Write) -> io::Result<()> {
+    /// What to match, the first for each gap, and between which images nothing is left to match.
+    fn write_suggested<W: Write>(&self, out: &mut W) -> io::Result<()> {
         let mut gaps: Vec<&[usize]> = Vec::new();
         let all = self.joints.suggestions.iter().flatten();
         let first = all.filter(|one| {
@@ -472,14 +572,69 @@ impl Overview<'_> {
             is_new
         });
         let first: Vec<&Suggestion> = first.take(GAPS).collect();
-        if first.is_empty() {
-            return Ok(());
+        if !first.is_empty() {
+            writeln!(
+                out,
+                "  suggested   to match (the first for each gap; each would join components if the images \
+                 really overlap):"
+            )?;
+            write_suggestions(out, first)?;
         }
-        writeln!(
-            out,
-            "  suggested   to match (proved: each would join components; the first for each gap):"
-        )?;
-        write_suggestions(out, first)
+        for words in self.photographs() {
+            wrapped(out, "photograph", &words)?;
+        }
+        Ok(())
+    }
+
+    /// Between which groups of images all pairs were tried: parts, and single images in none.
+    fn photographs(&self) -> Vec<String> {
+        let (Some(parts), Some(report)) = (self.parts(), self.decisive()) else {
+            return Vec::new();
+        };
+        let input = report.input;
+        let Some(matching) = input.matching.as_ref().filter(|_| !self.is_promised()) else {
+            return Vec::new();
+        };
+        let outside = self.in_no_part();
+        let singles = outside.chunks(1);
+        let groups: Vec<&[u32]> = parts
+            .images
+            .iter()
+            .map(Vec::as_slice)
+            .chain(singles)
+            .collect();
+        let is_tried = |a: u32, b: u32| {
+            let pair = (a.min(b), a.max(b));
+            let others = &matching.others;
+            let is_other = others
+                .binary_search_by_key(&pair, |other| other.images)
+                .is_ok();
+            a == b || is_other || input.graph.edge_number(pair.0, pair.1).is_some()
+        };
+        let named = |group: &[u32]| match group {
+            [image] => input.labels.display(*image).to_string(),
+            _ => format!(
+                "{} ... {} ({})",
+                input.labels.display(group[0]),
+                input.labels.display(group[group.len() - 1]),
+                counted(part_names::images(input, group), "image")
+            ),
+        };
+        let pairs = (0..groups.len().min(SHOWN)).flat_map(|k| (0..k).map(move |l| (l, k)));
+        let all_tried = pairs.filter(|&(one, other)| {
+            let each = groups[one].iter();
+            each.clone()
+                .all(|&a| groups[other].iter().all(|&b| is_tried(a, b)))
+        });
+        let words = all_tried.map(|(one, other)| {
+            format!(
+                "all pairs between {} and {} were matched, and too little came of it: take a photograph that \
+                 shows what both see",
+                named(groups[one]),
+                named(groups[other])
+            )
+        });
+        words.take(GAPS).collect()
     }
 
     /// Writes everything as one line of JSON.
@@ -525,6 +680,7 @@ impl Overview<'_> {
             no_tracks: self.no_tracks,
             joints: self.joints,
             determined: self.determined(),
+            condition: self.condition(),
             determined_by: if self.tracks.is_some() {
                 "tracks"
             } else {
@@ -538,7 +694,8 @@ impl Overview<'_> {
             },
             in_no_part: self.named(&self.in_no_part()),
             narrow: &self.narrow,
-            mappers: self.mappers.as_ref(),
+            mappers: self.mappers.as_ref().filter(|_| self.no_model().is_none()),
+            no_model: self.no_model(),
             follows: self.follows(),
             next: &self.next,
             seconds: self.time.as_secs_f64(),
@@ -566,6 +723,8 @@ struct Line<'a> {
     #[serde(flatten)]
     joints: &'a Advice,
     determined: bool,
+    /// What that rests on.
+    condition: String,
     determined_by: &'static str,
     images: usize,
     of: usize,
@@ -574,6 +733,9 @@ struct Line<'a> {
     narrow: &'a Narrow,
     #[serde(skip_serializing_if = "Option::is_none")]
     mappers: Option<&'a Foreseen>,
+    /// Why mappers make nothing, where that is known beforehand.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    no_model: Option<String>,
     follows: Follows,
     next: &'a [Next],
     seconds: f64,

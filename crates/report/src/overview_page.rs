@@ -25,16 +25,20 @@ pub fn html(overview: &Overview, advice: &Advice) -> io::Result<String> {
     };
     let report = Report { advice, ..*report };
     let is_good = overview.determined();
-    let what = match (overview.tracks.is_some(), is_good) {
-        (true, true) => "The tracks determine all images that have a pair",
-        (true, false) => "The tracks do not determine all images",
-        (false, true) => "The pairs determine all images that have one",
-        (false, false) => "The pairs do not determine all images",
+    let what = if overview.tracks.is_some() {
+        "tracks"
+    } else {
+        "pairs"
+    };
+    let what = match (overview.no_model(), overview.is_promised()) {
+        (Some(why), _) => format!("Mappers {why}"),
+        (None, true) => format!("The {what} determine all images {}", overview.condition()),
+        (None, false) => format!("The {what} do not determine all images"),
     };
     let sheet = Sheet {
         kind: "What to expect of a reconstruction",
         name: overview.name,
-        answer: (format!("{what} against each other."), is_good),
+        answer: (format!("{what}."), is_good),
         text: &String::from_utf8_lossy(&text),
         scene: Scene::new(report, matched),
         advice,

@@ -3,7 +3,7 @@
 use super::json::{AnswerLine, GraphLine, write_line};
 use super::read::ReadLine;
 use super::tracks::{self, TrackLine};
-use super::{Report, counted, text};
+use super::{Report, condition, counted, text};
 use crate::advice::joints as write_joints;
 use crate::assumptions::BaseLines;
 use crate::sheet::{Scene, Sheet};
@@ -110,6 +110,7 @@ impl SplitReport<'_> {
     /// Why there are so many parts.
     pub fn why(&self) -> String {
         let all = counted(self.split.image_count(), "image");
+        let right = condition::of(self.report.input);
         let without = match self.split.outside.len() {
             0 => String::new(),
             count => format!(
@@ -120,15 +121,17 @@ impl SplitReport<'_> {
         match self.split.parts.len() {
             0 => "the tracks determine no two images against each other".to_owned(),
             1 if self.by_frames() => format!(
-                "the tracks determine all {all} against each other, as frames share their base lines: \
-                 there is one part"
+                "the tracks determine all {all} against each other {right}, as frames share their base \
+                 lines: there is one part"
             ),
             1 if without.is_empty() => {
-                format!("the tracks determine all {all} against each other: there is one part")
+                format!(
+                    "the tracks determine all {all} against each other {right}: there is one part"
+                )
             }
-            1 => format!("the tracks determine one part{without}"),
+            1 => format!("the tracks determine one part {right}{without}"),
             count => format!(
-                "the tracks determine {count} parts, each in itself, and leave free how these lie \
+                "the tracks determine {count} parts, each in itself {right}, and leave free how these lie \
                  against each other: how they do in the model rests on no track{without}"
             ),
         }

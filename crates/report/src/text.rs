@@ -1,6 +1,6 @@
 //! A few lines a graph, for people.
 
-use super::{Report, counted, database, size_with_parts, tracks};
+use super::{Report, condition, counted, database, size_with_parts, tracks};
 use std::io::{self, Write};
 use viewcert::decide::Strength;
 use viewcert::decide::evidence::{Evidence, Witness};
@@ -146,11 +146,19 @@ pub(super) fn answer(report: &Report) -> String {
             None => "finitely many sets of cameras".into(),
         },
     };
+    let condition =
+        condition(report.input, verdict).map_or_else(String::new, |words| format!(" {words}"));
     format!(
-        "{}: {means} ({})",
+        "{}: {means}{condition} ({})",
         value(verdict.value, verdict.model),
         strength(verdict.value_claim().strength)
     )
+}
+
+/// What a good answer about photographs rests on.
+pub(super) fn condition(input: &NamedGraph, verdict: &Verdict) -> Option<String> {
+    let is_good = verdict.value != Value::NotFiniteSolvable;
+    condition::of_photographs(input, verdict.model).filter(|_| is_good)
 }
 
 /// The strength of a claim in words.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import json
 import os
 from dataclasses import dataclass, field
@@ -61,11 +62,31 @@ class Overview:
     found : dict
         What ``verify overview --json`` prints: ``pairs`` and ``tracks`` with their verdicts, ``mappers`` with what
         COLMAP's mappers will make of it, ``next`` with commands.
+
+    Printed, it is the report; in a notebook, the page with its picture.
     """
 
     path: str
     found: Dict[str, Any] = field(repr=False)
     _reading: Dict[str, Any] = field(repr=False)
+
+    @property
+    def determined(self) -> bool:
+        """Whether all images are determined, under `condition`."""
+        return bool(self.found["determined"])
+
+    @property
+    def condition(self) -> str:
+        """What everything that is promised rests on: ``'if every pair is right'``, and focal lengths that
+        are guesses."""
+        return str(self.found["condition"])
+
+    def __str__(self) -> str:
+        return self.report()
+
+    def _repr_html_(self) -> str:
+        page = html.escape(self.page(), quote=True)
+        return f'<iframe srcdoc="{page}" style="width: 100%; height: 48em; border: 0"></iframe>'
 
     def report(self) -> str:
         """What ``verify overview`` prints."""

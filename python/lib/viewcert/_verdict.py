@@ -165,6 +165,8 @@ class BaseLines:
     groups_not_turned : int, optional
         How many groups of images neither pairs nor known poses turn against each other, if there
         are several: the value is ``'open'`` then.
+    condition : str, optional
+        What ``'solvable'`` rests on: that every pair is right.
     """
 
     value: BaseLinesValue
@@ -177,6 +179,7 @@ class BaseLines:
     parts_proved: bool
     about_one_axis: bool
     groups_not_turned: Optional[int] = None
+    condition: Optional[str] = None
 
 
 class Verdict(Generic[N]):
@@ -364,8 +367,11 @@ class Verdict(Generic[N]):
 
     @property
     def conditions(self) -> Tuple[str, ...]:
-        """What the answer holds for, beyond generic cameras of the model, in words."""
-        return tuple(map(in_python, self.to_dict().get("conditions", ())))
+        """What the answer holds for, beyond generic cameras of the model, in words. A good answer about
+        photographs begins with ``'if every pair is right'``."""
+        found = self.to_dict()
+        first = [found["condition"]] if "condition" in found else []
+        return tuple(map(in_python, [*first, *found.get("conditions", ())]))
 
     @property
     def planar(self) -> Optional[Planar]:
@@ -701,8 +707,10 @@ class Verdict(Generic[N]):
     def __repr__(self) -> str:
         count = self._native.component_count()
         components = "1 component" if count == 1 else f"{count} components"
+        condition = self.to_dict().get("condition")
+        value = self.value if condition is None else f"{self.value} {condition}"
         return (
-            f"<viewcert.Verdict {self.value} ({self.strength}): rank {self.rank} of "
+            f"<viewcert.Verdict {value} ({self.strength}): rank {self.rank} of "
             f"{self.required}, {components}{shown_notes(self.notes)}>"
         )
 

@@ -134,7 +134,7 @@ pub fn estimate(views: &TwoViews) -> Estimate {
 }
 
 /// The pose of an essential matrix that has most points before both cameras.
-fn pose(essential: &Matrix, matches: &[[[f64; 2]; 2]]) -> Option<Pose> {
+fn pose(essential: &Matrix, matches: &[[Vector; 2]]) -> Option<Pose> {
     let e = essential;
     let half: f64 = e.iter().map(|row| dot(*row, *row)).sum::<f64>() / 2.0;
     let square = |i: usize, j: usize| if i == j { half } else { 0.0 } - dot(e[i], e[j]);
@@ -161,8 +161,7 @@ fn pose(essential: &Matrix, matches: &[[[f64; 2]; 2]]) -> Option<Pose> {
 }
 
 /// Whether a point lies before both cameras.
-fn is_before(pose: &Pose, [x, y]: &[[f64; 2]; 2]) -> bool {
-    let (x, y) = ([x[0], x[1], 1.0], [y[0], y[1], 1.0]);
+fn is_before(pose: &Pose, &[x, y]: &[Vector; 2]) -> bool {
     let turned = apply(&pose.rotation, x);
     let normal = cross(y, turned);
     let depth = -dot(cross(y, pose.translation), normal) / dot(normal, normal);
@@ -171,12 +170,11 @@ fn is_before(pose: &Pose, [x, y]: &[[f64; 2]; 2]) -> bool {
 }
 
 /// The median angle between two rays to a point, in degrees, of the points before both cameras.
-fn median_angle(pose: &Pose, matches: &[[[f64; 2]; 2]]) -> Option<f64> {
+fn median_angle(pose: &Pose, matches: &[[Vector; 2]]) -> Option<f64> {
     let seen = matches.iter().filter(|two| is_before(pose, two));
     let mut angles: Vec<f64> = seen
-        .map(|[x, y]| {
-            let x = apply(&pose.rotation, [x[0], x[1], 1.0]);
-            let y = [y[0], y[1], 1.0];
+        .map(|&[x, y]| {
+            let x = apply(&pose.rotation, x);
             let across = cross(x, y);
             dot(across, across).sqrt().atan2(dot(x, y)).to_degrees()
         })

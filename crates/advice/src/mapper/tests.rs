@@ -242,7 +242,7 @@ fn poses_of_essential_matrices() {
             let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
             let lengths = (dot(x, x) * dot(ray, ray)).sqrt();
             angles.push((dot(x, ray) / lengths).acos().to_degrees());
-            [[x[0] / x[2], x[1] / x[2]], [y[0] / y[2], y[1] / y[2]]]
+            [x, y]
         })
         .collect();
     angles.sort_by(f64::total_cmp);

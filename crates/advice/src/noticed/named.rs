@@ -17,6 +17,8 @@ pub struct Surpluses {
     pub full: usize,
     /// How many pairs are checked in all of them.
     pub checked: usize,
+    /// An error is seen under this condition: look-alikes agree with each other, and are wrong together.
+    pub condition: &'static str,
     /// The other pairs, those first that are checked least.
     pub items: Vec<SurplusItem>,
     /// Pairs that check each other; null if a core is too large to look.
@@ -119,12 +121,13 @@ impl Task<'_> {
             surplus: one.surplus,
             strength: one.strength.name(),
         });
+        let (of, condition) = match self.input.cameras {
+            Some(_) => ("observations", "if every other observation is right"),
+            None => ("pairs", "if every other pair is right"),
+        };
         Ok(Surpluses {
-            of: if self.input.cameras.is_some() {
-                "observations"
-            } else {
-                "pairs"
-            },
+            of,
+            condition,
             full: self.verdict.model.required(2),
             checked,
             items: items.collect(),

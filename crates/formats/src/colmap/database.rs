@@ -46,7 +46,11 @@ impl Database {
             let (pairs, matching) = tables.graph()?;
             let positions = positions::read(&opened.connection, &tables.nodes)?;
             Ok(Self {
-                facts: tables.facts(&pairs, positions.iter().flatten().count()),
+                facts: tables.facts(
+                    &opened.connection,
+                    &pairs,
+                    positions.iter().flatten().count(),
+                )?,
                 matching: Matching {
                     positions,
                     ..matching
@@ -110,9 +114,7 @@ impl Database {
             frames,
             options,
         )?;
-        graph
-            .notes
-            .extend(summary::guessed(connection).map_err(input)?);
+        graph.notes.extend(summary::guessed(&self.facts));
         let known = self
             .tables
             .between_cameras(&self.pairs, self.matching.clone());

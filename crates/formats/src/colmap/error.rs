@@ -89,6 +89,9 @@ pub enum DatabaseError {
     /// Matches were emptied.
     #[error("{0} of the pairs that are used have inliers, but no list of them")]
     NoLists(usize),
+    /// Pairs that are used, and no match of theirs counts; or no pair is used.
+    #[error("the database has no tracks: {} used", are(*.0, "pair"))]
+    NoTracks(usize),
     /// Something else, as SQLite says it.
     #[error("the SQLite database cannot be read: {0}")]
     Other(String),
@@ -138,6 +141,12 @@ impl DatabaseError {
             Self::NameNotUtf8(_) | Self::NameTwice(_) => "rename the image",
             Self::NoLists(_) => {
                 "tracks need the lists: give the database as the matching left it, or decide its pairs without --tracks"
+            }
+            Self::NoTracks(0) => {
+                "ask for fewer inliers (--min-inliers; in COLMAP --Mapper.min_num_matches and --GlobalMapper.min_num_matches), or decide its pairs without --tracks"
+            }
+            Self::NoTracks(_) => {
+                "match the images again: the features that are matched are not in the database"
             }
             Self::Other(_) => "check its path and permissions, or read a copy",
         }

@@ -33,6 +33,13 @@ pub struct DatabaseFacts {
     pub rigs: usize,
     /// How many images have a position by their pose priors.
     pub positions: usize,
+    /// How many images with a pair have a camera that no two others of them have, and a focal length that is
+    /// a guess.
+    pub focal_guessed: usize,
+    /// How many cameras that three images or more with a pair have and whose focal length is a guess.
+    pub focal_shared: usize,
+    /// How many images with a pair have no keypoints.
+    pub images_without_keypoints: usize,
     /// The sizes of the connected parts of the viewing graph in images, falling; images without a
     /// pair are parts of one.
     pub connected: Vec<usize>,

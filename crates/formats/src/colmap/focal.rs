@@ -1,4 +1,4 @@
-//! Which camera took each image of a database, and which cameras have a prior focal length.
+//! Which camera took each image of a database, and what it knows of the focal length of each camera.
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
@@ -7,42 +7,83 @@ use rusqlite::Connection;
 
 use super::open::Opened;
 use super::tables::{columns, images};
-use super::{DatabaseError, FocalLengths};
+use super::{DatabaseError, Focal, FocalLengths};
 
-/// Reads the camera of each image, and `prior_focal_length` of each camera. O(n log n) for n images.
+/// The number of COLMAP's model of a whole sphere (`EQUIRECTANGULAR`), whose parameters are the width and
+/// height of the image.
+pub(super) const SPHERICAL: i64 = 17;
+
+/// What is known of the focal length of each camera, by its number; nothing, if the database does not say.
+/// O(cameras).
+///
+/// # Errors
+/// Those of SQLite.
+pub(super) fn of_cameras(
+    connection: &Connection,
+) -> Result<Option<HashMap<i64, Focal>>, DatabaseError> {
+    let present = columns(connection, "cameras")?;
+    let has = |column: &str| present.iter().any(|name| name == column);
+    if !has("camera_id") || !has("prior_focal_length") {
+        return Ok(None);
+    }
+    let model = if has("model") { "model" } else { "0" };
+    let query = format!("select camera_id, {model}, prior_focal_length from cameras");
+    let mut statement = connection.prepare(&query)?;
+    let known = statement.query_map([], |row| {
+        let (model, prior): (i64, i64) = (row.get(1)?, row.get(2)?);
+        let focal = match (model, prior) {
+            (SPHERICAL, _) => Focal::Spherical,
+            (_, 0) => Focal::Guess,
+            _ => Focal::Prior,
+        };
+        Ok((row.get(0)?, focal))
+    })?;
+    Ok(Some(known.collect::<Result<_, _>>()?))
+}
+
+/// The number of the camera of each image, by its node; nothing, if the database does not say. O(images).
+///
+/// # Errors
+/// Those of SQLite.
+pub(super) fn of_images(
+    connection: &Connection,
+    nodes: &HashMap<i64, u32>,
+) -> Result<Option<HashMap<u32, i64>>, DatabaseError> {
+    if !columns(connection, "images")?
+        .iter()
+        .any(|name| name == "camera_id")
+    {
+        return Ok(None);
+    }
+    let mut statement = connection.prepare("select image_id, camera_id from images")?;
+    let rows = statement.query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?;
+    let mut cameras = HashMap::new();
+    for row in rows {
+        let (image, camera): (i64, i64) = row?;
+        let node = nodes.get(&image).ok_or(DatabaseError::Changed)?;
+        cameras.insert(*node, camera);
+    }
+    Ok(Some(cameras))
+}
+
+/// Reads the camera of each image, and what is known of the focal length of each. O(n log n) for n images.
 ///
 /// # Errors
 /// A database that cannot be read, or without cameras; an image whose camera is not there.
 pub(crate) fn focal_lengths(path: &Path) -> Result<FocalLengths, DatabaseError> {
     let opened = Opened::new(path)?;
     let connection = &opened.connection;
-    for (table, needed) in [("cameras", "prior_focal_length"), ("images", "camera_id")] {
-        if !columns(connection, table)?
-            .iter()
-            .any(|name| name == needed)
-        {
-            return Err(DatabaseError::NotColmap(format!(
-                "its table `{table}` has no column `{needed}`"
-            )));
-        }
-    }
-    let lengths = read(connection)?;
-    opened.finish()?;
-    Ok(lengths)
-}
-
-fn read(connection: &Connection) -> Result<FocalLengths, DatabaseError> {
+    let missing = |table, column| {
+        DatabaseError::NotColmap(format!("its table `{table}` has no column `{column}`"))
+    };
+    let known = of_cameras(connection)?;
+    let known = known.ok_or_else(|| missing("cameras", "prior_focal_length"))?;
     let (names, nodes) = images(connection)?;
-    let mut statement = connection.prepare("select camera_id, prior_focal_length from cameras")?;
-    let known = statement.query_map([], |row| Ok((row.get(0)?, row.get::<_, i64>(1)? != 0)))?;
-    let known: HashMap<i64, bool> = known.collect::<Result<_, _>>()?;
-    let mut statement = connection.prepare("select image_id, camera_id from images")?;
-    let of_images = statement.query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?;
-    let of_images: Vec<(i64, i64)> = of_images.collect::<Result<_, _>>()?;
+    let of_nodes = of_images(connection, &nodes)?;
+    let of_nodes = of_nodes.ok_or_else(|| missing("images", "camera_id"))?;
     let mut cameras = BTreeMap::new();
-    for (image, camera) in of_images {
-        let name = nodes.get(&image).map(|&node| &names[node as usize]);
-        let name = name.ok_or(DatabaseError::Changed)?;
+    for (node, camera) in of_nodes {
+        let name = &names[node as usize];
         if !known.contains_key(&camera) {
             return Err(DatabaseError::NoCamera {
                 image: name.to_string(),
@@ -51,5 +92,6 @@ fn read(connection: &Connection) -> Result<FocalLengths, DatabaseError> {
         }
         cameras.insert(name.clone(), camera);
     }
+    opened.finish()?;
     Ok(FocalLengths { cameras, known })
 }

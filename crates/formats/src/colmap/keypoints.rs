@@ -29,6 +29,45 @@ pub(super) struct Keypoints<'a> {
     missing: usize,
 }
 
+fn damaged(names: &[Box<str>], node: u32, why: String) -> DatabaseError {
+    DatabaseError::Keypoints {
+        image: names[node as usize].to_string(),
+        why,
+    }
+}
+
+/// How many features every image has, by its node; none where the database has no list of them. O(images).
+///
+/// # Errors
+/// Numbers that are none.
+pub(super) fn counts(
+    connection: &Connection,
+    names: &[Box<str>],
+    nodes: &HashMap<i64, u32>,
+) -> Result<Vec<Option<u32>>, DatabaseError> {
+    let mut counts = vec![None; names.len()];
+    let present = columns(connection, "keypoints")?;
+    let wanted = ["image_id", "rows", "cols", "data"];
+    if !wanted
+        .iter()
+        .all(|column| present.iter().any(|name| name == column))
+    {
+        return Ok(counts);
+    }
+    let mut statement = connection.prepare("select image_id, rows from keypoints")?;
+    let mut rows = statement.query([])?;
+    while let Some(row) = rows.next()? {
+        let (id, count): (i64, i64) = (row.get(0)?, row.get(1)?);
+        let Some(&node) = nodes.get(&id) else {
+            continue;
+        };
+        let count = u32::try_from(count)
+            .map_err(|_| damaged(names, node, format!("there are {count} of them")))?;
+        counts[node as usize] = (count > 0).then_some(count);
+    }
+    Ok(counts)
+}
+
 impl<'a> Keypoints<'a> {
     /// Reads how many there are. O(images).
     ///
@@ -44,34 +83,14 @@ impl<'a> Keypoints<'a> {
         for (&id, &node) in nodes {
             ids[node as usize] = id;
         }
-        let mut keypoints = Self {
+        Ok(Self {
             connection,
             names,
-            counts: vec![None; names.len()],
+            counts: counts(connection, names, nodes)?,
             ids,
             spread,
             missing: 0,
-        };
-        let present = columns(connection, "keypoints")?;
-        let wanted = ["image_id", "rows", "cols", "data"];
-        if !wanted
-            .iter()
-            .all(|column| present.iter().any(|name| name == column))
-        {
-            return Ok(keypoints);
-        }
-        let mut statement = connection.prepare("select image_id, rows from keypoints")?;
-        let mut rows = statement.query([])?;
-        while let Some(row) = rows.next()? {
-            let (id, count): (i64, i64) = (row.get(0)?, row.get(1)?);
-            let Some(&node) = nodes.get(&id) else {
-                continue;
-            };
-            let count = u32::try_from(count)
-                .map_err(|_| keypoints.damaged(node, format!("there are {count} of them")))?;
-            keypoints.counts[node as usize] = (count > 0).then_some(count);
-        }
-        Ok(keypoints)
+        })
     }
 
     /// Whether an image has a feature of this number, as far as is known.
@@ -93,10 +112,7 @@ impl<'a> Keypoints<'a> {
     }
 
     fn damaged(&self, node: u32, why: String) -> DatabaseError {
-        DatabaseError::Keypoints {
-            image: self.names[node as usize].to_string(),
-            why,
-        }
+        damaged(self.names, node, why)
     }
 
     /// The places of some features in a list as the database has it.

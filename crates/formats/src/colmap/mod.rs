@@ -51,7 +51,7 @@ pub(crate) use focal::focal_lengths;
 #[cfg(feature = "databases")]
 pub(crate) use positions::pose_priors;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::fmt;
 use std::fs::File;
 use std::io::Read;
@@ -88,12 +88,23 @@ pub(crate) struct PosePriors {
     pub(crate) deviation: Option<f64>,
 }
 
+/// What a database knows of the focal length of a camera.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Focal {
+    /// It is known beforehand (`prior_focal_length`).
+    Prior,
+    /// It is a guess.
+    Guess,
+    /// There is none: the camera sees the whole sphere, and each pixel has a known direction.
+    Spherical,
+}
+
 /// What a database knows of focal lengths.
 pub(crate) struct FocalLengths {
     /// By the name of an image, the `camera_id` of what took it.
-    pub(crate) cameras: std::collections::BTreeMap<Box<str>, i64>,
-    /// By its id, whether a camera has a prior focal length.
-    pub(crate) known: std::collections::HashMap<i64, bool>,
+    pub(crate) cameras: BTreeMap<Box<str>, i64>,
+    /// By its id, what is known of a camera.
+    pub(crate) known: HashMap<i64, Focal>,
 }
 
 /// Whether a file is an SQLite database, by what it begins with; one that cannot be read is none. What

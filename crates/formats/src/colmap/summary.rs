@@ -1,18 +1,37 @@
 //! What is said of a database: its summary, and what was chosen and left out.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use rusqlite::Connection;
 
+use super::focal::{of_cameras, of_images};
+use super::keypoints;
 use super::pairs::Tables;
-use super::tables::columns;
-use super::{Bin, ConfigCount, DatabaseError, DatabaseFacts, Pipeline};
+use super::{Bin, ConfigCount, DatabaseError, DatabaseFacts, Focal, Pipeline};
 use viewcert::graph::{Graph, UnionFind};
 use viewcert::wording::counted;
 
 impl Tables {
     /// The summary; so many images have a position.
-    pub(super) fn facts(&self, graph: &Graph, positions: usize) -> DatabaseFacts {
+    ///
+    /// # Errors
+    /// Those of SQLite.
+    pub(super) fn facts(
+        &self,
+        connection: &Connection,
+        graph: &Graph,
+        positions: usize,
+    ) -> Result<DatabaseFacts, DatabaseError> {
+        let paired: BTreeSet<u32> = graph.edges().iter().flat_map(|&(a, b)| [a, b]).collect();
+        let [focal_guessed, focal_shared] = guesses(connection, &self.nodes, &paired)?;
+        let keypoints = match keypoints::counts(connection, &self.names, &self.nodes) {
+            // Who asks for tracks hears of it.
+            Err(DatabaseError::Keypoints { .. }) => vec![Some(0); self.names.len()],
+            counts => counts?,
+        };
+        let without = paired
+            .iter()
+            .filter(|&&image| keypoints[image as usize].is_none());
         let mut configs: BTreeMap<i64, ConfigCount> = BTreeMap::new();
         for pair in &self.pairs {
             let config = pair.config;
@@ -25,7 +44,7 @@ impl Tables {
             count.used += usize::from(pair.used);
         }
         let connected = connected(graph);
-        DatabaseFacts {
+        Ok(DatabaseFacts {
             table: self.table.into(),
             pipeline: self.pipeline,
             min_inliers: self.min_inliers,
@@ -38,8 +57,11 @@ impl Tables {
             rigs: self.rigs,
             version: self.version,
             positions,
+            focal_guessed,
+            focal_shared,
+            images_without_keypoints: without.count(),
             connected,
-        }
+        })
     }
 
     /// Pairs that tracks are made of and that global mapping may not take.
@@ -132,39 +154,48 @@ impl Tables {
 }
 
 /// That focal lengths are guesses, if they are: of cameras that three images or more have they come out of
-/// the images, and are not counted. O(images).
-///
-/// # Errors
-/// Those of SQLite.
-pub(super) fn guessed(connection: &Connection) -> Result<Option<String>, DatabaseError> {
-    for (table, column) in [
-        ("images", "camera_id"),
-        ("cameras", "camera_id"),
-        ("cameras", "prior_focal_length"),
-    ] {
-        if !columns(connection, table)?
-            .iter()
-            .any(|name| name == column)
-        {
-            return Ok(None);
-        }
-    }
-    let query = "select coalesce(sum(images), 0) from (select count(*) as images from images join cameras \
-                 using (camera_id) where prior_focal_length = 0 group by camera_id) where images < 3";
-    let images: i64 = connection.query_row(query, [], |row| row.get(0))?;
-    let images = match usize::try_from(images) {
-        Ok(0) | Err(_) => return Ok(None),
-        Ok(1) => "1 image has a camera that no two others have and a focal length that is a guess"
+/// the images, and are not counted.
+pub(super) fn guessed(facts: &DatabaseFacts) -> Option<String> {
+    let images = match facts.focal_guessed {
+        0 => return None,
+        1 => "1 image has a camera that no two others have and a focal length that is a guess"
             .to_owned(),
-        Ok(count) => format!(
+        count => format!(
             "{count} images have cameras that no two others have and focal lengths that are guesses"
         ),
     };
-    Ok(Some(format!(
+    Some(format!(
         "{images} (prior_focal_length 0): tracks are decided for known rotations, which a wrong focal \
          length makes wrong"
-    )))
+    ))
 }
+
+/// The images whose focal length is a guess of a camera that no two others have, and the cameras with a
+/// guess that three images or more have, of the images that have a pair. O(images).
+///
+/// # Errors
+/// Those of SQLite.
+fn guesses(
+    connection: &Connection,
+    nodes: &HashMap<i64, u32>,
+    paired: &BTreeSet<u32>,
+) -> Result<[usize; 2], DatabaseError> {
+    let (Some(known), Some(cameras)) = (of_cameras(connection)?, of_images(connection, nodes)?)
+    else {
+        return Ok([0; 2]);
+    };
+    let mut images: HashMap<i64, usize> = HashMap::new();
+    for camera in paired.iter().filter_map(|node| cameras.get(node)) {
+        if known.get(camera) == Some(&Focal::Guess) {
+            *images.entry(*camera).or_default() += 1;
+        }
+    }
+    let few = images.values().filter(|&&count| count < SELF_CALIBRATED);
+    Ok([few.clone().sum(), images.len() - few.count()])
+}
+
+/// Of how many images of one camera mappers usually find its focal length.
+const SELF_CALIBRATED: usize = 3;
 
 /// Where bins begin; doubling from the mappers' threshold on.
 const BINS: [u32; 9] = [0, 1, 15, 30, 60, 120, 240, 480, 960];

@@ -2,8 +2,8 @@
 //! pair.
 
 use super::DatabaseError;
-use rusqlite::Connection;
 use rusqlite::types::ValueRef;
+use rusqlite::{Connection, OptionalExtension};
 use std::collections::HashMap;
 
 /// A pair's number is this times the smaller image's number, plus the larger one's.
@@ -38,7 +38,16 @@ pub(super) fn verified_table(connection: &Connection) -> Result<&'static str, Da
 }
 
 /// The names of a table's columns; none if there is no such table.
+///
+/// # Errors
+/// A view or a virtual table: what it computes may never end.
 pub(super) fn columns(connection: &Connection, table: &str) -> Result<Vec<String>, DatabaseError> {
+    let stored = "select rootpage > 0 from sqlite_schema where name = ? collate nocase and type in ('table', 'view')";
+    let is_stored = connection.query_row(stored, [table], |row| row.get(0));
+    if is_stored.optional()? == Some(false) {
+        let why = format!("its `{table}` is a view, and tables are read here");
+        return Err(DatabaseError::NotColmap(why));
+    }
     let mut statement = connection.prepare("select name from pragma_table_info(?)")?;
     let names = statement.query_map([table], |row| row.get(0))?;
     Ok(names.collect::<Result<_, _>>()?)

@@ -50,7 +50,10 @@ pub(super) fn read(
     if unknown.is_some() {
         graph.set_places_missing();
     }
-    let mut graph = graph.finish()?;
+    let mut graph = graph.finish().map_err(|fault| match fault.problem {
+        Problem::NoPoints { .. } => input(DatabaseError::NoTracks(pairs.edges().len()).into()),
+        _ => fault,
+    })?;
     graph.notes.extend(beyond.into_iter().chain(unknown));
     Ok(graph)
 }

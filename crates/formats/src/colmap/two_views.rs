@@ -17,8 +17,8 @@ pub struct TwoViews {
     /// The rotation, as a quaternion (w, x, y, z), and the translation that take coordinates of the
     /// first camera to those of the second.
     pub pose: Option<([f64; 4], [f64; 3])>,
-    /// The verified matches: the two points, in the plane at distance 1 before the camera. Without
-    /// distortion, which is rarely known before a reconstruction. Empty if keypoints or cameras are
-    /// missing, or of a kind that has no such plane.
-    pub matches: Vec<[[f64; 2]; 2]>,
+    /// The verified matches: the two directions, each in the frame of its camera; of a camera with an image
+    /// plane the point in the plane at distance 1. Without distortion, which is rarely known before a
+    /// reconstruction. Empty if keypoints or cameras are missing, or the camera is a fisheye.
+    pub matches: Vec<[[f64; 3]; 2]>,
 }

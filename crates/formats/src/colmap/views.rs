@@ -4,10 +4,12 @@
 //! pairs of many, and keypoints are most of a database; so what is read once is an index of images.
 
 use std::collections::HashMap;
+use std::f64::consts::{PI, TAU};
 
 use rusqlite::types::ValueRef;
 use rusqlite::{Connection, OptionalExtension, Row, params};
 
+use super::focal::SPHERICAL;
 use super::tables::{PAIR_FACTOR, columns};
 use super::{DatabaseError, TwoViews};
 
@@ -19,6 +21,8 @@ pub struct Views<'a> {
     ids: Vec<i64>,
     /// The camera of every image, by its node.
     cameras: Vec<Option<Camera>>,
+    /// Whether the focal length of every image was known before matching, by its node.
+    priors: Vec<bool>,
     /// Which columns of poses the table has: E, F, and a quaternion with a translation.
     has: [bool; 3],
     has_config: bool,
@@ -32,13 +36,20 @@ struct Keypoints(HashMap<u32, Vec<[f32; 2]>>);
 /// Most images whose keypoints are kept.
 const KEPT: usize = 256;
 
-/// A camera without its distortion: focal lengths and principal point, in pixels.
+/// A camera without its distortion.
 #[derive(Clone, Copy, Debug)]
-struct Camera {
+enum Camera {
+    /// With a plane of points before it.
+    Plane(Plane),
+    /// One that sees the whole sphere: the width and height of its image, in pixels.
+    Sphere([f64; 2]),
+}
+
+/// Focal lengths and principal point, in pixels.
+#[derive(Clone, Copy, Debug)]
+struct Plane {
     focal: [f64; 2],
     centre: [f64; 2],
-    /// Whether the focal length was known before matching.
-    prior: bool,
 }
 
 impl<'a> Views<'a> {
@@ -56,7 +67,7 @@ impl<'a> Views<'a> {
         for (&id, &node) in nodes {
             ids[node as usize] = id;
         }
-        let mut cameras = vec![None; images];
+        let (mut cameras, mut priors) = (vec![None; images], vec![false; images]);
         if columns(connection, "cameras")?.len() > 5
             && columns(connection, "images")?
                 .iter()
@@ -70,6 +81,8 @@ impl<'a> Views<'a> {
                 let id: i64 = row.get(0)?;
                 if let Some(&node) = nodes.get(&id) {
                     cameras[node as usize] = camera(row)?;
+                    let prior: Option<i64> = row.get(3)?;
+                    priors[node as usize] = prior.is_some_and(|prior| prior != 0);
                 }
             }
         }
@@ -84,6 +97,7 @@ impl<'a> Views<'a> {
             table,
             ids,
             cameras,
+            priors,
             has: [has("E"), has("F"), posed],
             has_config: has("config"),
             keypoints: keypoints.then(Keypoints::default),
@@ -96,7 +110,7 @@ impl<'a> Views<'a> {
     /// # Panics
     /// If there is no such image.
     pub fn has_prior_focal_length(&self, image: u32) -> bool {
-        self.cameras[image as usize].is_some_and(|camera| camera.prior)
+        self.priors[image as usize]
     }
 
     /// What is known of a pair; nothing, if it is not in the table of verified pairs.
@@ -163,7 +177,9 @@ impl<'a> Views<'a> {
         let [e, f] = [e, f].map(|m| matrix(&m));
         // A pair with a fundamental matrix was verified by it; the essential one was then worse.
         let of_fundamental = || {
-            let [one, two] = [cameras[0]?, cameras[1]?];
+            let [Some(Camera::Plane(one)), Some(Camera::Plane(two))] = cameras else {
+                return None;
+            };
             Some(essential(&f?, &one, &two))
         };
         found.essential = match config {
@@ -181,7 +197,7 @@ impl<'a> Views<'a> {
                     let a = u32::from_le_bytes([a0, a1, a2, a3]) as usize;
                     let b = u32::from_le_bytes([b0, b1, b2, b3]) as usize;
                     if let (Some(&x), Some(&y)) = (x.get(a), y.get(b)) {
-                        found.matches.push([one.plane(x), two.plane(y)]);
+                        found.matches.push([one.ray(x), two.ray(y)]);
                     }
                 }
             }
@@ -221,42 +237,45 @@ impl Keypoints {
 }
 
 impl Camera {
-    /// A pixel in the plane at distance 1.
-    fn plane(&self, pixel: [f32; 2]) -> [f64; 2] {
-        [0, 1].map(|k| (f64::from(pixel[k]) - self.centre[k]) / self.focal[k])
+    /// The direction that a pixel sees, in the camera's frame; of a plane at distance 1 before it.
+    fn ray(&self, pixel: [f32; 2]) -> [f64; 3] {
+        let pixel = pixel.map(f64::from);
+        match self {
+            Self::Plane(Plane { focal, centre }) => {
+                let [x, y] = [0, 1].map(|k| (pixel[k] - centre[k]) / focal[k]);
+                [x, y, 1.0]
+            }
+            Self::Sphere(size) => {
+                let turn = TAU * (pixel[0] / size[0] - 0.5);
+                let down = PI * (pixel[1] / size[1] - 0.5);
+                [down.cos() * turn.sin(), down.sin(), down.cos() * turn.cos()]
+            }
+        }
     }
 }
 
-/// The camera of a row, unless its model has no plane of points before it.
+/// The camera of a row, unless its model is that of a fisheye, or a number is missing.
 fn camera(row: &Row) -> Result<Option<Camera>, DatabaseError> {
     let model: i64 = row.get(1)?;
     let parameters = doubles(row.get_ref(2)?);
-    let prior: Option<i64> = row.get(3)?;
-    // Models 0, 2 and 3 of COLMAP have one focal length, 1, 4 and 6 have two; all then have the
-    // principal point. The others are fisheyes.
-    let one = matches!(model, 0 | 2 | 3);
-    if !one && !matches!(model, 1 | 4 | 6) {
-        return Ok(None);
-    }
-    let at = |k: usize| {
-        parameters
-            .get(k)
-            .copied()
-            .filter(|number| number.is_finite())
+    let numbers = match (model, &parameters[..]) {
+        (SPHERICAL, &[width, height, ..]) => {
+            let size = [width, height];
+            let is_size = size.iter().all(|&side| side.is_finite() && side > 0.0);
+            return Ok(is_size.then_some(Camera::Sphere(size)));
+        }
+        // Models 0, 2, 3 and 12 of COLMAP have one focal length, 1, 4, 6 and 13 have two; all then have
+        // the principal point.
+        (0 | 2 | 3 | 12, &[f, u, v, ..]) => [f, f, u, v],
+        (1 | 4 | 6 | 13, &[x, y, u, v, ..]) => [x, y, u, v],
+        _ => return Ok(None),
     };
-    let found = if one {
-        [at(0), at(0), at(1), at(2)]
-    } else {
-        [at(0), at(1), at(2), at(3)]
-    };
-    Ok(match found {
-        [Some(x), Some(y), Some(u), Some(v)] if x > 0.0 && y > 0.0 => Some(Camera {
-            focal: [x, y],
-            centre: [u, v],
-            prior: prior.is_some_and(|prior| prior != 0),
-        }),
-        _ => None,
-    })
+    let [x, y, u, v] = numbers;
+    let is_camera = numbers.iter().all(|number| number.is_finite()) && x > 0.0 && y > 0.0;
+    Ok(is_camera.then_some(Camera::Plane(Plane {
+        focal: [x, y],
+        centre: [u, v],
+    })))
 }
 
 /// The numbers of a blob; none of what is no blob.
@@ -279,8 +298,8 @@ fn matrix(numbers: &[f64]) -> Option<[[f64; 3]; 3]> {
 }
 
 /// E = K2^T F K1.
-fn essential(f: &[[f64; 3]; 3], one: &Camera, two: &Camera) -> [[f64; 3]; 3] {
-    let calibration = |camera: &Camera| {
+fn essential(f: &[[f64; 3]; 3], one: &Plane, two: &Plane) -> [[f64; 3]; 3] {
+    let calibration = |camera: &Plane| {
         let ([x, y], [u, v]) = (camera.focal, camera.centre);
         [[x, 0.0, u], [0.0, y, v], [0.0, 0.0, 1.0]]
     };

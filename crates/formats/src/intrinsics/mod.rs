@@ -11,7 +11,7 @@ use std::path::Path;
 
 use crate::NamedGraph;
 use crate::cameras::{for_each_line, read_file};
-use crate::colmap::{self, FocalLengths};
+use crate::colmap::{self, Focal, FocalLengths};
 use crate::edge_list::fields::split;
 use crate::error::{Fault, Place, Problem, ReadError};
 use viewcert::intrinsics::{Class, Sensors};
@@ -32,8 +32,8 @@ pub struct Intrinsics {
 }
 
 /// Reads classes from a file (`-` is standard input). In a COLMAP database the images with one
-/// `camera_id` are of one sensor, *known* if it has a prior focal length and *focal* if not. Notes begin
-/// with its name. O(n log n).
+/// `camera_id` are of one sensor, *known* if it has a prior focal length or is spherical, and *focal* if not.
+/// Notes begin with its name. O(n log n).
 ///
 /// # Errors
 /// With file and line: a word that is no class, a camera that the graph does not have or that two
@@ -50,7 +50,7 @@ pub fn read_intrinsics(
     read_file(path, read, |found| &mut found.notes)
 }
 
-/// The sensors of the images of a COLMAP database; without `priors` all are *focal*.
+/// The sensors of the images of a COLMAP database; without `priors` all but spherical ones are *focal*.
 ///
 /// # Errors
 /// A file that is no database, or cannot be read; a graph with cameras that it does not have.
@@ -63,7 +63,7 @@ pub fn of_database(path: &Path, input: &NamedGraph, priors: bool) -> Result<Intr
     let lengths = colmap::focal_lengths(path).map_err(|error| fault(error.into()))?;
     let FocalLengths { cameras, known } = lengths;
     let mut sensor_of: HashMap<i64, usize> = HashMap::new();
-    let mut counts = [0; 2];
+    let (mut without, mut spheres) = (0, 0);
     let mut classes = Vec::new();
     let mut of_node = Vec::with_capacity(input.graph.nodes());
     for node in 0..input.graph.nodes() as u32 {
@@ -71,20 +71,25 @@ pub fn of_database(path: &Path, input: &NamedGraph, priors: bool) -> Result<Intr
         let Some(camera) = cameras.get(&*label) else {
             return Err(fault(Problem::UnknownImage(label.into_owned())));
         };
-        let is_known = priors && known[camera];
-        counts[usize::from(!is_known)] += 1;
+        let focal = known[camera];
+        let is_known = focal == Focal::Spherical || priors && focal == Focal::Prior;
+        spheres += usize::from(focal == Focal::Spherical);
+        without += usize::from(!is_known);
         let sensor = *sensor_of.entry(*camera).or_insert(classes.len());
         if sensor == classes.len() {
             classes.push(if is_known { Class::Known } else { Class::Focal });
         }
         of_node.push(sensor);
     }
-    let [known, focal] = counts;
-    let why = if priors {
-        format!("{known} by prior focal lengths, {focal} without")
+    let known = of_node.len() - without - spheres;
+    let mut why = if priors {
+        format!("{known} by prior focal lengths, {without} without")
     } else {
         "prior focal lengths are left out of account".into()
     };
+    if spheres > 0 {
+        why += &format!(", {spheres} spherical, which have none and are known");
+    }
     let sensors = Sensors::new(of_node, classes);
     let shared = match sensors.shared().len() {
         0 => String::new(),

@@ -551,18 +551,56 @@ fn tracks_of(
 /// What is in a folder.
 fn folder(folder: &Path, options: &ReadOptions) -> Result<NamedGraph, ReadError> {
     let name = &folder.display().to_string();
+    let is_model = tracks::is_model(folder);
+    let inside = if is_model {
+        Vec::new()
+    } else {
+        inside(folder, DEPTH)
+    };
+    if !inside.is_empty() {
+        return Err(Place::Input.fault(Problem::Holds(inside)).in_file(name));
+    }
     match options.tracks {
+        None if tracks::has_no_points(folder) => {
+            let graph = tracks::read_folder(folder, TrackOptions::default());
+            tracks_called(name, graph, Vec::new())
+        }
         Some(tracks) => {
             let notes = ignored(options, &TRACKS_KIND);
             tracks_called(name, tracks::read_folder(folder, tracks), notes)
         }
-        None if tracks::is_model(folder) => Err(Place::Input.fault(Problem::Model).in_file(name)),
+        None if is_model => Err(Place::Input.fault(Problem::Model).in_file(name)),
         None => {
             let error = std::io::ErrorKind::IsADirectory.into();
             Err(Place::Input.fault(Problem::Unreadable(error)).in_file(name))
         }
     }
 }
+
+/// How far down a folder is looked through: COLMAP's models lie in sparse/0, sparse/1.
+const DEPTH: usize = 2;
+
+/// The models and databases that lie in a folder, or in one of its folders, by name. O(files) there.
+fn inside(folder: &Path, depth: usize) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten();
+    let mut paths: Vec<_> = entries.flatten().map(|entry| entry.path()).collect();
+    paths.sort();
+    let found = paths.into_iter().flat_map(|path| {
+        // Thousands of photographs may lie here, and are not opened.
+        let is_named_so = path
+            .extension()
+            .is_some_and(|is| is == "db" || is == "sqlite");
+        let is_input = tracks::is_model(&path) || is_named_so && colmap::is_database(&path);
+        match is_input || depth <= 1 {
+            true => Vec::from_iter(is_input.then(|| path.display().to_string())),
+            false => inside(&path, depth - 1),
+        }
+    });
+    found.take(MOST_INSIDE).collect()
+}
+
+/// So many of them are named.
+const MOST_INSIDE: usize = 8;
 
 fn tracks_called(
     name: &str,

@@ -50,6 +50,10 @@ pub struct TrackFacts {
     pub short: usize,
 }
 
+/// What to do with a model of COLMAP that has poses and no points.
+const KNOWN_POSES: &str = "let COLMAP find the points (`colmap point_triangulator`), or decide the pairs of its \
+                           database at these cameras: `verify database.db --given FOLDER`";
+
 /// A camera-point graph that grows by tracks.
 pub(crate) struct TrackGraph {
     facts: TrackFacts,
@@ -176,7 +180,11 @@ impl TrackGraph {
     /// No track at all, or more nodes than can be numbered.
     pub(crate) fn finish(mut self) -> Result<NamedGraph, Fault> {
         if self.track == 0 {
-            return Err(Place::Input.fault(Problem::Corrupt("it has no tracks".into())));
+            return Err(Place::Input.fault(Problem::NoPoints {
+                what: "a model of COLMAP",
+                advice: KNOWN_POSES,
+                cameras: self.cameras.len(),
+            }));
         }
         self.unite();
         let cameras = self.cameras.len() as u32;

@@ -32,8 +32,8 @@ pub(crate) use frames::{Frame, Pose, Rig, read as read_frames};
 pub(crate) use graph::TrackGraph;
 pub(crate) use join::Joined;
 pub(crate) use kind::{TrackFile, kind};
-pub(crate) use model::{encoding_in, frames_in, is_model};
-pub(crate) use model_files::Encoding as ModelEncoding;
+pub(crate) use model::{encoding_in, frames_in, has_no_points, is_model};
+pub(crate) use model_files::{CAMERA_MODELS, Encoding as ModelEncoding};
 
 use std::io::Read;
 use std::path::Path;
@@ -67,7 +67,16 @@ pub(crate) fn read(
             let folder = path.map(|path| path.parent().unwrap_or(Path::new("")));
             model::beside(folder, part, encoding, input, options)
         }
-    }?;
+    };
+    let graph = graph.map_err(|fault| match (&fault.problem, kind) {
+        (Problem::NoPoints { .. }, TrackFile::Colmap { .. }) => fault,
+        (&Problem::NoPoints { cameras, .. }, _) => Place::Input.fault(Problem::NoPoints {
+            what: kind.name(),
+            advice: "write it with its points, or decide the pairs of its images, from a list or a database",
+            cameras,
+        }),
+        _ => fault,
+    })?;
     Ok(NamedGraph {
         read: ReadAs::new(kind.format()),
         ..graph

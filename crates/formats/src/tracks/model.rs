@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 
 use super::graph::{TrackGraph, TrackOptions, sorted};
 use super::model_files::{Encoding, Image, Part, Points};
+use super::words::Words;
 use super::{Frames, model_binary, model_rigs, model_text};
 use crate::NamedGraph;
 use crate::error::{Fault, Place, Problem};
@@ -36,6 +37,22 @@ pub(crate) fn encoding_in(folder: &Path) -> Option<Encoding> {
 /// Whether there is a model in a folder.
 pub(crate) fn is_model(folder: &Path) -> bool {
     encoding_in(folder).is_some()
+}
+
+/// Whether there is a model in a folder, and no point in it. O(bytes) of the comments.
+pub(crate) fn has_no_points(folder: &Path) -> bool {
+    let Some(encoding) = encoding_in(folder) else {
+        return false;
+    };
+    let file = File::open(folder.join(file_name(Part::Points, encoding)));
+    file.is_ok_and(|file| match encoding {
+        Encoding::Binary => {
+            let mut count = [0; 8];
+            let mut file = file;
+            file.read_exact(&mut count).is_ok() && count == [0; 8]
+        }
+        Encoding::Text => matches!(Words::new(file).next_full_line(), Ok(false)),
+    })
 }
 
 /// The graph of the model in a folder.

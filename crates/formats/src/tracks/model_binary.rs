@@ -8,7 +8,7 @@
 
 use std::io::{BufRead, BufReader, ErrorKind, Read, Seek};
 
-use super::model_files::{Image, Part, Points};
+use super::model_files::{CAMERA_MODELS, Image, Part, Points};
 use crate::error::{Fault, Place, Problem};
 
 /// The longest name of an image.
@@ -16,9 +16,6 @@ const NAME_LIMIT: u64 = 1 << 16;
 
 /// Bytes of a feature in images.bin.
 const FEATURE: u64 = 24;
-
-/// How many parameters the models of cameras have, by their numbers.
-const PARAMETERS: [u64; 12] = [3, 4, 4, 5, 8, 8, 12, 5, 4, 5, 12, 16];
 
 fn fault(problem: Problem) -> Fault {
     Place::Input.fault(problem)
@@ -204,11 +201,11 @@ impl Head<'_> {
         self.short()?;
         let model = self.short()?;
         let size = [self.long(1 << 32)?, self.long(1 << 32)?];
-        let parameters = PARAMETERS.get(model as usize).ok_or(Unlike::Other)?;
+        let parameters = CAMERA_MODELS.get(model as usize).ok_or(Unlike::Other)?;
         if size.contains(&0) {
             return Err(Unlike::Other);
         }
-        self.doubles(*parameters).map(|_| ())
+        self.doubles(parameters.1).map(|_| ())
     }
 }
 

@@ -34,8 +34,11 @@ pub(super) fn read<R: Read>(
     let input = |problem: Problem| Place::Input.fault(problem);
     let (names, nodes) = sorted(names).map_err(input)?;
     let mut graph = TrackGraph::new(names, options)?;
-    words.next_full_line()?;
-    let points = words.number("the number of points")?;
+    // A file of cameras alone may end here.
+    let points = match words.next_full_line()? {
+        true => words.number("the number of points")?,
+        false => 0,
+    };
     let mut views = Vec::new();
     for _ in 0..points {
         words.skip(6, "the position or colour of a point")?;

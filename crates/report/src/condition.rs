@@ -1,0 +1,55 @@
+//! What a promise about photographs rests on: words that stand in the promise itself.
+//!
+//! Verdicts are about a graph, and are proved of it. Whether photographs are placed right depends on pairs
+//! that are right too: look-alikes are matched, and no verdict sees it.
+
+use viewcert::Model;
+use viewcert::wording::counted;
+use viewcert_formats::NamedGraph;
+use viewcert_formats::colmap::DatabaseFacts;
+
+/// The condition for what the input says of pairs or tracks.
+pub(crate) fn of(input: &NamedGraph) -> String {
+    let focal = input.database.as_deref().map_or_else(String::new, focal);
+    if_right(input) + &focal
+}
+
+/// The same, where the input is of photographs; plain graphs are not.
+pub(crate) fn of_photographs(input: &NamedGraph, model: Model) -> Option<String> {
+    let are_photographs = input.database.is_some() || input.cameras.is_some();
+    are_photographs.then(|| match model {
+        Model::Projective => if_right(input),
+        Model::Calibrated | Model::Affine => of(input),
+    })
+}
+
+/// The condition without focal lengths.
+pub(crate) fn if_right(input: &NamedGraph) -> String {
+    let is_model = input.cameras.is_some() && input.database.is_none();
+    let what = if is_model { "track" } else { "pair" };
+    format!("if every {what} is right")
+}
+
+/// What has to hold of focal lengths that are guesses.
+fn focal(facts: &DatabaseFacts) -> String {
+    let shared = |more: &str| match facts.focal_shared {
+        1 => format!(" and the mapper finds the {more}focal length"),
+        count => format!(" and the mapper finds {count} {more}focal lengths"),
+    };
+    match (facts.focal_guessed, facts.focal_shared) {
+        (0, 0) => String::new(),
+        (0, _) => shared(""),
+        (guessed, several) => {
+            let are = if guessed == 1 { "is" } else { "are" };
+            let others = if several == 0 {
+                String::new()
+            } else {
+                format!(",{}", shared("other "))
+            };
+            format!(
+                " and so {are} {}{others}",
+                counted(guessed, "guessed focal length")
+            )
+        }
+    }
+}
