@@ -548,11 +548,15 @@ fn a_message_for_everything_that_is_wrong() {
     );
     let missing = none.folder.path().join("missing.db");
     refused(&missing, &[], &["cannot be read", "check its path"]);
-    refused(none.folder.path(), &[], &["directory"]);
+    refused(
+        none.folder.path(),
+        &[],
+        &["a folder that holds", "database.db"],
+    );
     refused(
         none.folder.path(),
         &["--tracks"],
-        &["there is no model here", "points3D.bin"],
+        &["a folder that holds", "a model is read with --tracks"],
     );
     let house = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/house.txt");
     refused(
@@ -1381,8 +1385,8 @@ fn frames_share_base_lines_that_are_not_known() {
     assert_eq!(line["verdict"], "not-finite-solvable");
     let found = &line["base_lines"];
     // 40 points, 3 frames and a base line.
-    let expected = json!({ "frames": 3, "unknown": 1, "verdict": "solvable", "rank": 128,
-        "rank_at_most": 128, "rank_required": 128, "parts": 1, "parts_proved": true, "about_one_axis": false });
+    let expected = json!({ "frames": 3, "unknown": 1, "verdict": "solvable",
+        "condition": "if every pair is right", "rank": 128, "rank_at_most": 128, "rank_required": 128, "parts": 1, "parts_proved": true, "about_one_axis": false });
     assert_eq!(found, &expected);
     let run = verify(&["--tracks", text(&path)]);
     assert_eq!(run.code, 0, "{}", run.err);

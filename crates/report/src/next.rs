@@ -28,24 +28,10 @@ pub fn next(options: &ReadOptions, path: &Path, found: &Overview) -> Vec<Next> {
         return Vec::from_iter(margin);
     }
     let mut next = Vec::new();
-    if let Some(enough) = found.weak_pairs() {
-        let weaker = ReadOptions {
-            min_inliers: Some(enough),
-            ..options.clone()
-        };
-        return vec![
-            Next {
-                command: format!("verify overview {file}{}", options_of(&weaker)),
-                purpose: "the same, with pairs of so few inliers",
-            },
-            Next {
-                command: format!(
-                    "colmap global_mapper --database_path {file} --image_path images --output_path sparse \
-                     --GlobalMapper.min_num_matches {enough}"
-                ),
-                purpose: "global mapping with such pairs; incremental mapping asks for more points besides",
-            },
-        ];
+    if found.facts().is_some_and(|facts| facts.pairs_used == 0) {
+        return found
+            .weak_pairs()
+            .map_or_else(Vec::new, |enough| weaker(&file, enough, options).into());
     }
     // These are about one graph, and a path may hold several.
     let single = found.name == path.display().to_string();
@@ -57,7 +43,7 @@ pub fn next(options: &ReadOptions, path: &Path, found: &Overview) -> Vec<Next> {
             "the images of every part, as lists for the mappers",
         ));
     }
-    if found.has_parts() && !found.is_one_part() {
+    if found.has_suggestions() {
         next.push(advise(
             &decided,
             " --suggest",
@@ -68,7 +54,8 @@ pub fn next(options: &ReadOptions, path: &Path, found: &Overview) -> Vec<Next> {
             },
         ));
     }
-    if with_tracks && found.averaging().is_some_and(|parts| !parts.whole) {
+    let untried = found.has_suggestions() || found.is_one_part();
+    if untried && with_tracks && found.averaging().is_some_and(|parts| !parts.whole) {
         next.push(advise(
             " --model calibrated",
             " --suggest",
@@ -84,6 +71,27 @@ pub fn next(options: &ReadOptions, path: &Path, found: &Overview) -> Vec<Next> {
     }
     next.extend(margin);
     next
+}
+
+/// What to do where no pair has the inliers that are asked for, and so many would be enough.
+fn weaker(file: &str, enough: u32, options: &ReadOptions) -> [Next; 2] {
+    let weaker = ReadOptions {
+        min_inliers: Some(enough),
+        ..options.clone()
+    };
+    [
+        Next {
+            command: format!("verify overview {file}{}", options_of(&weaker)),
+            purpose: "the same, with pairs of so few inliers",
+        },
+        Next {
+            command: format!(
+                "colmap global_mapper --database_path {file} --image_path images --output_path sparse \
+                 --GlobalMapper.min_num_matches {enough}"
+            ),
+            purpose: "global mapping with such pairs; incremental mapping asks for more points besides",
+        },
+    ]
 }
 
 /// The options that say which tracks count, as they are written.

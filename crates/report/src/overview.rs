@@ -287,7 +287,10 @@ impl Overview<'_> {
                 "; with {count} they hang together as far as they can (--min-inliers {count}; in COLMAP \
                  --Mapper.min_num_matches and --GlobalMapper.min_num_matches)"
             ),
-            None => String::new(),
+            None => {
+                "; match other pairs, with other features, or take photographs that overlap more"
+                    .into()
+            }
         };
         Some(format!(
             "make no model: none of {pairs} has {}{configuration}{enough}",
@@ -348,6 +351,11 @@ impl Overview<'_> {
         self.parts().is_some_and(|parts| !parts.images.is_empty())
     }
 
+    /// Whether anything is suggested to be matched.
+    pub(crate) fn has_suggestions(&self) -> bool {
+        self.joints.suggestions.iter().any(|all| !all.is_empty())
+    }
+
     /// An image that is not in the largest part.
     pub fn outside(&self) -> Option<String> {
         let report = self.decisive()?;
@@ -375,7 +383,7 @@ impl Overview<'_> {
                 format!("of pairwise directions: the pairs determine all {all} {of_pairs}")
             }
             Some(parts) => format!(
-                "of pairwise directions: the pairs determine {} {of_pairs}, and not how these lie against \
+                "of pairwise directions: {of_pairs}, the pairs determine {}, and not how these lie against \
                  each other",
                 parts.words()
             ),
@@ -499,11 +507,8 @@ impl Overview<'_> {
             format!("averaging {}", follows.averaging),
         ];
         // The first lines have said it.
-        if self
-            .mappers
-            .as_ref()
-            .is_some_and(|foreseen| foreseen.global.parts.len() > 1)
-        {
+        let are_parts = |foreseen: &Foreseen| foreseen.global.parts.len() > 1;
+        if self.no_model().is_none() && self.mappers.as_ref().is_some_and(are_parts) {
             words.remove(0);
         }
         for (k, words) in words.iter().enumerate() {
@@ -592,7 +597,7 @@ impl Overview<'_> {
             return Vec::new();
         };
         let input = report.input;
-        let Some(matching) = input.matching.as_ref().filter(|_| !self.is_promised()) else {
+        let Some(matching) = input.matching.as_ref().filter(|_| !parts.images.is_empty()) else {
             return Vec::new();
         };
         let outside = self.in_no_part();

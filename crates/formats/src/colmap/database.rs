@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::open::Opened;
 use super::pairs::{Tables, of_cameras};
-use super::{DatabaseError, DatabaseFacts, Views, positions, rigs, summary, tracks};
+use super::{DatabaseError, DatabaseFacts, Views, positions, rigs, tracks};
 use crate::error::{Fault, Place};
 use crate::{Matching, NamedGraph, ReadAs, ReadError, ReadOptions, TrackOptions};
 use viewcert::graph::{Graph, Labels};
@@ -105,7 +105,7 @@ impl Database {
         } else {
             None
         };
-        let mut graph = tracks::read(
+        let graph = tracks::read(
             connection,
             table,
             names,
@@ -114,7 +114,6 @@ impl Database {
             frames,
             options,
         )?;
-        graph.notes.extend(summary::guessed(&self.facts));
         let known = self
             .tables
             .between_cameras(&self.pairs, self.matching.clone());

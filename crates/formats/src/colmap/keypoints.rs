@@ -36,7 +36,8 @@ fn damaged(names: &[Box<str>], node: u32, why: String) -> DatabaseError {
     }
 }
 
-/// How many features every image has, by its node; none where the database has no list of them. O(images).
+/// How many features every image has, by its node; none where the database has no list of them, and nothing
+/// at all where it has no table for them. O(images).
 ///
 /// # Errors
 /// Numbers that are none.
@@ -44,7 +45,7 @@ pub(super) fn counts(
     connection: &Connection,
     names: &[Box<str>],
     nodes: &HashMap<i64, u32>,
-) -> Result<Vec<Option<u32>>, DatabaseError> {
+) -> Result<Option<Vec<Option<u32>>>, DatabaseError> {
     let mut counts = vec![None; names.len()];
     let present = columns(connection, "keypoints")?;
     let wanted = ["image_id", "rows", "cols", "data"];
@@ -52,7 +53,7 @@ pub(super) fn counts(
         .iter()
         .all(|column| present.iter().any(|name| name == column))
     {
-        return Ok(counts);
+        return Ok(None);
     }
     let mut statement = connection.prepare("select image_id, rows from keypoints")?;
     let mut rows = statement.query([])?;
@@ -65,7 +66,7 @@ pub(super) fn counts(
             .map_err(|_| damaged(names, node, format!("there are {count} of them")))?;
         counts[node as usize] = (count > 0).then_some(count);
     }
-    Ok(counts)
+    Ok(Some(counts))
 }
 
 impl<'a> Keypoints<'a> {
@@ -86,7 +87,7 @@ impl<'a> Keypoints<'a> {
         Ok(Self {
             connection,
             names,
-            counts: counts(connection, names, nodes)?,
+            counts: counts(connection, names, nodes)?.unwrap_or_else(|| vec![None; names.len()]),
             ids,
             spread,
             missing: 0,

@@ -26,12 +26,15 @@ impl Tables {
         let [focal_guessed, focal_shared] = guesses(connection, &self.nodes, &paired)?;
         let keypoints = match keypoints::counts(connection, &self.names, &self.nodes) {
             // Who asks for tracks hears of it.
-            Err(DatabaseError::Keypoints { .. }) => vec![Some(0); self.names.len()],
+            Err(DatabaseError::Keypoints { .. }) => None,
             counts => counts?,
         };
-        let without = paired
-            .iter()
-            .filter(|&&image| keypoints[image as usize].is_none());
+        let has_none = |&image: &u32| {
+            keypoints
+                .as_ref()
+                .is_some_and(|all| all[image as usize].is_none())
+        };
+        let images_without_keypoints = paired.into_iter().filter(has_none).count();
         let mut configs: BTreeMap<i64, ConfigCount> = BTreeMap::new();
         for pair in &self.pairs {
             let config = pair.config;
@@ -59,7 +62,7 @@ impl Tables {
             positions,
             focal_guessed,
             focal_shared,
-            images_without_keypoints: without.count(),
+            images_without_keypoints,
             connected,
         })
     }
@@ -151,23 +154,6 @@ impl Tables {
         }
         notes
     }
-}
-
-/// That focal lengths are guesses, if they are: of cameras that three images or more have they come out of
-/// the images, and are not counted.
-pub(super) fn guessed(facts: &DatabaseFacts) -> Option<String> {
-    let images = match facts.focal_guessed {
-        0 => return None,
-        1 => "1 image has a camera that no two others have and a focal length that is a guess"
-            .to_owned(),
-        count => format!(
-            "{count} images have cameras that no two others have and focal lengths that are guesses"
-        ),
-    };
-    Some(format!(
-        "{images} (prior_focal_length 0): tracks are decided for known rotations, which a wrong focal \
-         length makes wrong"
-    ))
 }
 
 /// The images whose focal length is a guess of a camera that no two others have, and the cameras with a
