@@ -322,7 +322,7 @@ struct ReportedComponent {
 }
 
 /// The members of a line of `verify --json`; see `report::json`.
-const REPORTED: [&str; 31] = [
+const REPORTED: [&str; 32] = [
     "graph",
     "parts",
     "read",
@@ -332,6 +332,7 @@ const REPORTED: [&str; 31] = [
     "model",
     "displacements",
     "verdict",
+    "condition",
     "strength",
     "error_log2",
     "solutions",
