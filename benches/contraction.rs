@@ -2,7 +2,7 @@
 //! bodies and loose edges that is.
 //!
 //! ```text
-//! cargo run --release -p viewcert-paper --example contraction -- GRAPH...
+//! cargo run --release --manifest-path lab/Cargo.toml --example contraction -- GRAPH...
 //! ```
 
 use std::process::ExitCode;

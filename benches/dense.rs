@@ -2,7 +2,7 @@
 //! elimination (`verify --method matrix --prime`) and plane flows are compared with.
 //!
 //! ```text
-//! cargo run --release -p viewcert-paper --example dense -- GRAPH
+//! cargo run --release --manifest-path lab/Cargo.toml --example dense -- GRAPH
 //! ```
 
 mod input;

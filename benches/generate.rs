@@ -1,12 +1,12 @@
 //! Synthetic viewing graphs for the benchmarks, as edge lists on standard output.
 //!
 //! ```text
-//! cargo run --release -p viewcert-paper --example generate -- regular NODES SEED
-//! cargo run --release -p viewcert-paper --example generate -- cubic NODES SEED
-//! cargo run --release -p viewcert-paper --example generate -- grid NODES PAIRS SEED
-//! cargo run --release -p viewcert-paper --example generate -- city NODES PAIRS SEED
-//! cargo run --release -p viewcert-paper --example generate -- random NODES PAIRS SEED
-//! cargo run --release -p viewcert-paper --example generate -- sequence NODES NEIGHBOURS SEED
+//! cargo run --release --manifest-path lab/Cargo.toml --example generate -- regular NODES SEED
+//! cargo run --release --manifest-path lab/Cargo.toml --example generate -- cubic NODES SEED
+//! cargo run --release --manifest-path lab/Cargo.toml --example generate -- grid NODES PAIRS SEED
+//! cargo run --release --manifest-path lab/Cargo.toml --example generate -- city NODES PAIRS SEED
+//! cargo run --release --manifest-path lab/Cargo.toml --example generate -- random NODES PAIRS SEED
+//! cargo run --release --manifest-path lab/Cargo.toml --example generate -- sequence NODES NEIGHBOURS SEED
 //! ```
 //!
 //! `regular`: a random 4-regular graph without triangles, which contraction cannot touch.

@@ -2,7 +2,7 @@
 //! the same entries.
 //!
 //! ```text
-//! cargo run --release -p viewcert-paper --example matrix -- residues|integers|rigidity GRAPH
+//! cargo run --release --manifest-path lab/Cargo.toml --example matrix -- residues|integers|rigidity GRAPH
 //! ```
 //!
 //! `residues`: J_P at general cameras modulo 2^61 - 1, as of `verify --method matrix --prime`.

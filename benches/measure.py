@@ -380,10 +380,10 @@ def noticed(arguments, folder):
     data = Path(arguments.data)
     with open(data / "table3.csv") as table:
         published = list(csv.DictReader(table))
-    asked = [["--surplus"], ["--implied=0"], ["--redundant", "2"], ["--redundant", "images:2"]]
+    asked = [["--surplus"], ["--implied=0"]]
     models = ["projective", "calibrated", "affine"]
     head("graph", "pairs", "without full surplus", "verdict, CPU ms",
-         *(f"surplus, {model}" for model in models), "implied", "redundant 2", "redundant images:2")
+         *(f"surplus, {model}" for model in models), "implied")
     for line in published:
         path = data / "table3" / line["file"]
         program = arguments.program
@@ -455,7 +455,7 @@ def peers(arguments, folder):
     print()
     head("all biconnected graphs with 12 nodes and 17 edges", "CPU, s")
     commands = {"geng -C, counted": [geng, "-Cuq", "12", "17:17"],
-                "verify catalog --verdicts, each one decided": [VERIFY, "catalog", "--nodes", "12", "--verdicts"]}
+                "viewcert-lab catalog --verdicts, each one decided": [VERIFY.with_name("viewcert-lab"), "catalog", "--nodes", "12", "--verdicts"]}
     for name, its in zip(commands, compare(list(commands.values()), arguments.runs)):
         row(name, sec(its.cpu))
 

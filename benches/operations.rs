@@ -2,7 +2,7 @@
 //! Jacobian: what to divide by the rates of the example `rate`.
 //!
 //! ```text
-//! cargo run --release -p viewcert-paper --example operations -- GRAPH
+//! cargo run --release --manifest-path lab/Cargo.toml --example operations -- GRAPH
 //! ```
 //!
 //! Counted is what runs dense: the end of the elimination of N, the plane flows from it, the

@@ -1,7 +1,7 @@
 //! How many multiply-adds modulo p the machine does, and how close the dense elimination comes.
 //!
 //! ```text
-//! cargo run --release -p viewcert-paper --example rate
+//! cargo run --release --manifest-path lab/Cargo.toml --example rate
 //! ```
 //!
 //! Three rates, each with one thread and with two, the best of several runs:

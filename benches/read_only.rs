@@ -2,7 +2,7 @@
 //! and certifying may take.
 //!
 //! ```text
-//! cargo run --release -p viewcert-paper --example read_only -- GRAPH...
+//! cargo run --release --manifest-path lab/Cargo.toml --example read_only -- GRAPH...
 //! ```
 
 use std::process::ExitCode;

@@ -1,9 +1,9 @@
 //! Synthetic camera-point graphs for the benchmarks, as edge lists on standard output.
 //!
 //! ```text
-//! cargo run --release -p viewcert-paper --example tracks -- path CAMERAS POINTS LENGTH SEED
-//! cargo run --release -p viewcert-paper --example tracks -- city CAMERAS POINTS LENGTH SEED
-//! cargo run --release -p viewcert-paper --example tracks -- hub CAMERAS LINKS
+//! cargo run --release --manifest-path lab/Cargo.toml --example tracks -- path CAMERAS POINTS LENGTH SEED
+//! cargo run --release --manifest-path lab/Cargo.toml --example tracks -- city CAMERAS POINTS LENGTH SEED
+//! cargo run --release --manifest-path lab/Cargo.toml --example tracks -- hub CAMERAS LINKS
 //! ```
 //!
 //! `path` and `city`: cameras are the nodes 0 to CAMERAS - 1, points those that follow; an edge is

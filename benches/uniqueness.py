@@ -161,7 +161,7 @@ def at_a_draw(graph, limit, draw):
 
 def published(verify, nodes):
     """The finite solvable graphs of a size with the fewest pairs, and how many solutions they are proved to have."""
-    command = [verify, "catalog", "--nodes", str(nodes), "--necessary", "--solutions", "--list", "--solvable-only"]
+    command = [verify, "catalog", "--nodes", str(nodes), "--necessary", "--solutions", "--list"]
     lines = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
     head = lines[0].split("\t")
     rows = (dict(zip(head, line.split("\t"))) for line in lines[1:])

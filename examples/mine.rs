@@ -1,16 +1,13 @@
 //! Mines a small catalog: all biconnected graphs with 8 cameras and the least number of pairs, and
 //! how many of them are finite solvable. `cargo run --example mine`.
 
+use viewcert::watch::Watch;
 use viewcert::{Options, Value, decide};
-use viewcert_catalog::{Candidates, least_edges};
+use viewcert_catalog::{candidates, least_edges};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let nodes = 8;
-    let mut graphs = Vec::new();
-    Candidates::new(nodes, least_edges(nodes), false)?.for_each(&mut |graph| {
-        graphs.push(graph);
-        true
-    });
+    let graphs = candidates(nodes, least_edges(nodes), &Watch::default())?;
     let mut solvable = 0;
     for graph in &graphs {
         let verdict = decide(graph, &Options::default())?;

@@ -4,7 +4,7 @@
 # publishing does it.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-all=(--workspace --exclude viewcert-paper --exclude viewcert-python)
+all=(--workspace --exclude viewcert-python)
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 

@@ -29,7 +29,7 @@ step "the source distribution holds what cargo needs"
 "$out/build/bin/maturin" sdist --out "$out/sdist"
 mkdir "$out/source"
 tar -xzf "$out"/sdist/*.tar.gz -C "$out/source" --strip-components 1
-# Its lock file names the workshop too, which is left out there: offline, so that it only gets shorter.
+# Its lock file names what tests need too, which is left out there: offline, so that it only gets shorter.
 cargo metadata --quiet --offline --format-version 1 \
     --manifest-path "$(find "$out/source" -path '*python/Cargo.toml')" >/dev/null
 # What is built from it has this package's README, not that of the whole project, and the licences.

@@ -33,9 +33,9 @@ pub(super) struct AdviceArguments {
     /// other: an error in what nothing checks cannot be seen by anyone.
     #[arg(long)]
     surplus: bool,
-    /// Say whether every component stays one whatever N pairs are lost (`images:N`: images), N being 1
-    /// or 2, and what breaks it.
-    #[arg(long, value_name = "N")]
+    /// Say whether every component stays one whichever pair is lost (`images:1`: image), and what
+    /// breaks it.
+    #[arg(long, value_name = "1")]
     redundant: Option<Lost>,
     /// Count the pairs that are determined though they are not in the graph, and list N of them at
     /// most [default: 1000].
@@ -51,14 +51,6 @@ pub(super) struct AdviceArguments {
     /// Explain an image: its components, its pairs, what it would need.
     #[arg(long, value_name = "IMAGE")]
     explain: Option<String>,
-    /// Decide again with at least so many inliers per pair, for each number (of a database).
-    #[arg(long, value_name = "N,N,...", value_delimiter = ',')]
-    sweep: Vec<u32>,
-    /// Leave out pairs (or tracks) at random, N times for each of several shares, and say how often
-    /// the components stay whole [default: 10].
-    #[arg(long, value_name = "N", num_args = 0..=1, require_equals = true)]
-    #[arg(default_missing_value = "10", value_parser = clap::value_parser!(u32).range(1..=10_000))]
-    margin: Option<u32>,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -101,8 +93,6 @@ impl AdviceArguments {
             implied: self.implied,
             suggest: self.suggest,
             explain: self.explain.clone(),
-            sweep: self.sweep.clone(),
-            margin: self.margin,
             export: None,
         }
     }

@@ -5,9 +5,11 @@ use viewcert::geometry::draw::{MAX_DENOMINATOR, MAX_NUMERATOR};
 
 /// Numerators and denominators of rational cameras, at most: `9,4`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Bounds {
-    pub(super) numerator: u64,
-    pub(super) denominator: u64,
+pub struct Bounds {
+    /// The largest numerator.
+    pub numerator: u64,
+    /// The largest denominator.
+    pub denominator: u64,
 }
 
 impl FromStr for Bounds {

@@ -6,8 +6,8 @@ use std::fs::File;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use viewcert::decide::{SharedBaseLines, Verdict};
-use viewcert_catalog::manifest;
 use viewcert_formats::NamedGraph;
+use viewcert_formats::manifest;
 use viewcert_session::Outputs;
 
 /// The option that names the target.

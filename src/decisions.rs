@@ -45,7 +45,6 @@ pub(super) fn run(session: &Session, plan: &Plan) -> Result<u8> {
     };
     let too_many = |what: &str| plan.too_many(what);
     let each = |out: &mut _, input: &NamedGraph, start| {
-        plan.request.check_input(input)?;
         let (input, known) = match read_beside(plan.given.as_deref(), input, plan.draft.model)? {
             Beside::Known(input, known) => (input, known),
             Beside::Cameras(input, centres) => {

@@ -10,7 +10,7 @@ use viewcert_session::exit::GOOD;
 /// What to explain.
 #[derive(Args)]
 pub(super) struct HelpArguments {
-    /// A command, as words (`catalog merge`), or input, or given [default: the program].
+    /// A command, as words (`check`), or input, or given [default: the program].
     #[arg(value_name = "TOPIC")]
     topic: Vec<String>,
 }

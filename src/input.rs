@@ -17,7 +17,7 @@ use viewcert_session::exit::{GOOD, ends_run};
 
 /// What the graphs' files are, for those that do not show it.
 #[derive(Args)]
-pub(super) struct InputArguments {
+pub struct InputArguments {
     /// Format of the graphs [default: what they can only be, by their content].
     ///
     /// An edge list has 2, 3, 9 or 14 fields on every line, separated by blanks, tabs or a
@@ -136,7 +136,7 @@ impl InputArguments {
     /// # Errors
     /// If the output is gone: nobody reads on, and the rest would be work for nothing. If a limit
     /// or a signal has ended the run.
-    pub(super) fn for_each<W: Write>(
+    pub fn for_each<W: Write>(
         &self,
         session: &Session,
         paths: &[PathBuf],

@@ -4,16 +4,12 @@
 //! [`OverviewAsked`], [`ListsAsked`], [`check_archive`].
 
 mod advise;
-#[cfg(feature = "studies")]
+#[cfg(feature = "audit")]
 mod audit;
 mod bounds;
 mod catalog;
 mod certificates;
 mod check;
-#[cfg(feature = "studies")]
-mod compare;
-#[cfg(feature = "studies")]
-mod conditions;
 mod convert;
 mod decisions;
 mod draw;
@@ -35,7 +31,9 @@ mod split;
 mod verify;
 mod witness;
 
+pub use bounds::Bounds;
 pub use check::{Archive, News, check_archive};
+pub use input::InputArguments;
 pub use limits::LimitArguments;
 pub use lists::Asked as ListsAsked;
 pub use overview::Asked as OverviewAsked;
@@ -66,11 +64,7 @@ struct CommandLine {
 /// The commands that the list of commands leaves out; a test holds them against it.
 const LITERATURE: &[&str] = &[
     "  models      Decide every camera model side by side, and say what changes between them",
-    #[cfg(feature = "studies")]
-    "  conditions  Check the necessary and sufficient conditions of the literature",
-    #[cfg(feature = "studies")]
-    "  compare     Compare the formulations of the literature: sizes, ranks, time",
-    #[cfg(feature = "studies")]
+    #[cfg(feature = "audit")]
     "  audit       Hold floating point, or claims of others, against the exact verdict",
     "  label       Name a small graph: a label that is the same for all its relabellings, and stays",
     "  catalog     Enumerate candidates and decide them all",
@@ -89,12 +83,11 @@ fn after_help() -> String {
 fn after_long_help() -> String {
     after_help()
         + "\n\n\
-Exit codes: 0 all graphs are solvable or finite solvable (check: verified; audit and compare: all
-agree; conditions: no necessary one fails; overview: all images with a pair are determined; models:
-solvable in every model; split: the model is one part with all images; merge and lists: what is
-shared fixes everything), 1 some are not (check: rejected; audit and compare: a disagreement, a
-refuted claim), 2 bad usage or input, 3 too large for the method or for the limits of time and memory
-(compare: nothing could be compared), 130 interrupted (Ctrl-C), 141 nobody reads the output, 143
+Exit codes: 0 all graphs are solvable or finite solvable (check: verified; audit: all agree; overview:
+all images with a pair are determined; models: solvable in every model; split: the model is one part
+with all images; merge and lists: what is shared fixes everything), 1 some are not (check: rejected;
+audit: a disagreement, a refuted claim), 2 bad usage or input, 3 too large for the method or for the
+limits of time and memory, 130 interrupted (Ctrl-C), 141 nobody reads the output, 143
 terminated. Of several graphs the largest code counts."
 }
 
@@ -126,22 +119,14 @@ enum Command {
     Label(label::LabelArguments),
     /// Enumerate candidates and decide them all.
     #[command(hide = true)]
-    Catalog(Box<catalog::Arguments>),
+    Catalog(catalog::Arguments),
     /// Hold floating point, or claims of others, against the exact verdict.
-    #[cfg(feature = "studies")]
+    #[cfg(feature = "audit")]
     #[command(hide = true)]
     Audit(audit::AuditArguments),
-    /// Compare the formulations of the literature: sizes, ranks, time.
-    #[cfg(feature = "studies")]
-    #[command(hide = true)]
-    Compare(compare::CompareArguments),
     /// Decide every camera model side by side, and say what changes between them.
     #[command(hide = true)]
     Models(models::ModelsArguments),
-    /// Check the necessary and sufficient conditions of the literature.
-    #[cfg(feature = "studies")]
-    #[command(hide = true)]
-    Conditions(conditions::ConditionArguments),
     /// Explain a command, how files are read (input), or what else can be known (given).
     Help(help::HelpArguments),
 }
@@ -174,13 +159,9 @@ fn run(session: &Session, arguments: &CommandLine) -> Result<u8> {
         Some(Command::Convert(arguments)) => convert::run(session, arguments),
         Some(Command::Label(arguments)) => label::run(session, arguments),
         Some(Command::Catalog(arguments)) => catalog::run(session, arguments),
-        #[cfg(feature = "studies")]
+        #[cfg(feature = "audit")]
         Some(Command::Audit(arguments)) => audit::run(session, arguments),
-        #[cfg(feature = "studies")]
-        Some(Command::Compare(arguments)) => compare::run(session, arguments),
         Some(Command::Models(arguments)) => models::run(session, arguments),
-        #[cfg(feature = "studies")]
-        Some(Command::Conditions(arguments)) => conditions::run(session, arguments),
         None => {
             no_command(&arguments.verify)?;
             decisions::run(session, &arguments.verify.plan()?)

@@ -194,34 +194,6 @@ fn an_image_is_explained() {
     refused(&run, "--explain w9: no image has this name");
 }
 
-/// The same seed gives the same; another one is named.
-#[test]
-fn margins_are_repeatable_experiments() {
-    let graph = two("w0 e0\n");
-    let options = ["advise", "--margin=20", "--seed", "5"];
-    let [one, again] = [0, 1].map(|_| report(&graph, &options)["margin"].clone());
-    assert_eq!(one, again);
-    assert_eq!(
-        (&one["draws"], &one["seed"], &one["of"]),
-        (&json!(20), &json!(5), &json!("pairs"))
-    );
-    let whole = one["components"][0]["whole"].as_array().unwrap();
-    // Six images are not held together by one pair in twenty.
-    assert_eq!(whole[4], 0);
-    assert!(whole[0].as_u64() > Some(0));
-    let out = text(&graph, &["advise", "--margin"]);
-    assert!(
-        out.contains("A random experiment (seed 1), not a proof"),
-        "{out}"
-    );
-}
-
-#[test]
-fn a_sweep_needs_inliers() {
-    let run = verify_with(two("").as_bytes(), &["advise", "-", "--sweep", "10,20"]);
-    refused(&run, "only a COLMAP database has");
-}
-
 fn read(path: &Path) -> String {
     std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
@@ -530,30 +502,6 @@ fn weak_observations_are_called_so() {
         &["advise", "--tracks", "--min-views", "2", "--weak=images"],
     );
     assert!(out.contains("cameras and points"), "{out}");
-    let run = verify_with(
-        two_of_tracks(&[]).as_bytes(),
-        &["advise", "-", "--tracks", "--sweep", "10"],
-    );
-    refused(&run, "leave out --tracks");
-}
-
-/// Twelve groups: all have a margin, eight are printed.
-#[test]
-fn all_components_have_a_margin() {
-    let mut graph = String::new();
-    for k in 0..12 {
-        let names: Vec<String> = (0..5).map(|v| format!("i{k}-{v}")).collect();
-        graph += &complete(&names.iter().map(String::as_str).collect::<Vec<_>>());
-    }
-    let line = report(&graph, &["advise", "--margin=4"]);
-    let found = line["margin"]["components"].as_array().unwrap();
-    assert_eq!(found.len(), 12);
-    let numbers: Vec<u64> = found
-        .iter()
-        .map(|one| one["component"].as_u64().unwrap())
-        .collect();
-    assert_eq!(numbers, (1..=12).collect::<Vec<_>>());
-    assert!(text(&graph, &["advise", "--margin=4"]).contains("and 4 more (--json lists them)"));
 }
 
 /// An export replaces a whole folder: what it holds is neither read nor written besides.

@@ -1,7 +1,6 @@
-//! The affine model and centres in a plane against matrices and lists of all small graphs: the
-//! published formulation, and Theorem 13.3.
+//! The affine model and centres in a plane against matrices and lists of all small graphs: Theorem 13.3.
 
-use crate::common::{geng_connected, verify_with};
+use crate::common::geng_connected;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use viewcert::decide::{Options, decide, plane_rank};
@@ -17,7 +16,6 @@ use viewcert::linalg::prime::PrimeField;
 use viewcert::linalg::sparse_lu::Factorisation;
 use viewcert::sparsity::Space;
 use viewcert::watch::{Watch, unwatched};
-use viewcert_studies::formulation::affine;
 
 fn graphs(nodes: usize) -> Vec<Graph> {
     let lines = geng_connected(nodes).unwrap_or_default();
@@ -57,23 +55,6 @@ fn residues(field: &PrimeField, graph: &Graph) -> impl FnMut() -> u64 {
     key.residues(field)
 }
 
-/// The published matrix has 12 + 4 rank R, and rank R is what counting says.
-fn published(graph: &Graph) {
-    let field = PrimeField::mersenne61();
-    let mut random = residues(&field, graph);
-    let mut camera = || std::array::from_fn(|_| std::array::from_fn(|_| random()));
-    let cameras: Vec<_> = (0..graph.nodes()).map(|_| camera()).collect();
-    let counted = plane_rank(graph, &Watch::default()).unwrap();
-    let directions = affine::directions(&field, graph, &cameras);
-    assert_eq!(rank(&field, directions, 2 * graph.nodes()), counted);
-    let rows = affine::matrix(&field, graph, &cameras);
-    assert_eq!(
-        rank(&field, rows, 8 * graph.nodes()),
-        4 * counted + 12,
-        "{graph:?}"
-    );
-}
-
 /// Theorem 13.3 at random centres in a plane, and the pebble game with three pebbles at random
 /// centres in space.
 fn in_a_plane(graph: &Graph) {
@@ -105,21 +86,6 @@ fn in_a_plane(graph: &Graph) {
     let generic = rank(&field, rigidity_rows(&field, graph, &generic), 3 * nodes);
     let counted = unwatched(|task| Space::new(graph, task)).rank();
     assert_eq!(counted, generic, "{graph:?}");
-}
-
-#[test]
-fn the_published_matrix_on_all_small_graphs() {
-    for nodes in 2..=7 {
-        graphs(nodes).iter().for_each(published);
-    }
-    random_graphs(300).for_each(|graph| published(&graph));
-}
-
-/// The same with 8 nodes.
-#[test]
-#[ignore = "a minute"]
-fn the_published_matrix_with_eight_nodes() {
-    graphs(8).iter().for_each(published);
 }
 
 #[test]
@@ -165,39 +131,4 @@ fn certificates_of_all_small_graphs_are_verified() {
         }
         certified(&Graph::new(2 * corners, pairs).unwrap());
     }
-}
-
-/// `verify compare --model affine`: the published matrix of the 4-cycle has rank 4 * 4 + 12 of 32.
-#[test]
-fn the_published_matrix_in_the_comparison() {
-    let cycle = crate::common::cycle(4);
-    for field in [&["--rational"][..], &["--prime", "1000003"], &[]] {
-        let arguments = [&["compare", "-", "--model", "affine"], field].concat();
-        let run = verify_with(cycle.as_bytes(), &arguments);
-        assert_eq!(run.code, 0, "{}", run.err);
-        for words in [
-            "28 x 32",
-            "4 x 8",
-            "on 4 of 4 pairs",
-            "4 dimensions of motions",
-        ] {
-            assert!(run.out.contains(words), "{words}: {}", run.out);
-        }
-        let run = verify_with(cycle.as_bytes(), &[&arguments[..], &["--json"]].concat());
-        let line = &run.json()[0];
-        assert_eq!((&line["agree"], &line["excess"]), (&true.into(), &4.into()));
-        assert_eq!(line["affine_f"], 4);
-        assert!(line.get("kernel_is_f").is_none());
-        let of = |k: usize| line["formulations"][k]["rank"].as_u64().unwrap();
-        assert_eq!((of(0), of(1)), (28, 16));
-    }
-    let run = verify_with(
-        crate::common::cycle(3).as_bytes(),
-        &["compare", "-", "--model", "affine"],
-    );
-    assert!(
-        run.out.contains("full rank, affine solvable"),
-        "{}",
-        run.out
-    );
 }

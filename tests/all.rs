@@ -15,8 +15,6 @@ mod camera_point;
 mod catalog;
 mod certificates;
 mod colmap;
-mod compare;
-mod conditions;
 mod convert;
 mod cross;
 mod degenerate;

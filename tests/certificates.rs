@@ -757,3 +757,69 @@ fn the_published_catalog_verifies() {
         format!("{candidates} certificates verified, 0 rejected\n{candidates} distinct graphs\n");
     assert!(run.out.starts_with(&expected), "{}", run.out);
 }
+
+/// Links that lead around are followed once, and what is no file is not waited for.
+#[test]
+#[cfg(unix)]
+fn a_folder_of_links_ends() {
+    use std::os::unix::fs::symlink;
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    std::fs::create_dir_all(at("sub/deeper")).unwrap();
+    let one = at("one.json");
+    let run = verify_with(b"1 2\n", &["-", "--certificate", one.to_str().unwrap()]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    symlink("..", at("sub/up")).unwrap();
+    symlink("../..", at("sub/deeper/top")).unwrap();
+    symlink("nowhere", at("gone.json")).unwrap();
+    symlink("one.json", at("same.json")).unwrap();
+    let pipe = at("pipe.json");
+    assert!(
+        std::process::Command::new("mkfifo")
+            .arg(&pipe)
+            .status()
+            .unwrap()
+            .success()
+    );
+    let run = verify(&["check", folder.path().to_str().unwrap()]);
+    let said = run.out;
+    assert_eq!(run.code, 0, "{said}");
+    assert!(
+        said.starts_with("2 certificates verified, 0 rejected\n1 distinct graph\n"),
+        "{said}"
+    );
+    let skipped = run.err;
+    for (name, why) in [
+        ("sub/up", "checked already"),
+        ("sub/deeper/top", "checked already"),
+        ("gone.json", "a link to nothing"),
+        ("pipe.json", "not a file"),
+    ] {
+        let line = skipped.lines().find(|line| line.contains(name));
+        assert!(line.is_some_and(|line| line.contains(why)), "{skipped}");
+    }
+}
+
+/// A certificate can hold what a terminal would obey.
+#[test]
+fn the_reason_of_a_rejection_is_escaped() {
+    let folder = tempfile::tempdir().unwrap();
+    let bad = folder.path().join("bad.json");
+    std::fs::write(
+        &bad,
+        "{\"\\u001b[2J\\nVERIFIED solvable\\u202e\": 1, \"claim\": 1}",
+    )
+    .unwrap();
+    for path in [bad.as_path(), folder.path()] {
+        let run = verify(&["check", path.to_str().unwrap()]);
+        assert_eq!(run.code, 1);
+        let said = run.out;
+        assert!(said.starts_with("REJECTED"), "{said}");
+        assert!(said.contains("\\u{1b}[2J"), "{said}");
+        assert!(!said.contains(['\u{1b}', '\u{202e}']), "{said:?}");
+        assert!(
+            !said.lines().any(|line| line.starts_with("VERIFIED")),
+            "{said}"
+        );
+    }
+}

@@ -15,7 +15,6 @@ use viewcert::linalg::matrix::Matrix;
 use viewcert::linalg::prime::PrimeField;
 use viewcert::linalg::textbook;
 use viewcert::watch::unwatched;
-use viewcert_studies::paper_components;
 
 fn cases(default: u64) -> u64 {
     match std::env::var("VIEWCERT_CASES") {
@@ -112,52 +111,7 @@ fn pipeline_against_the_paper() {
         let other = decide(&graph, &bounds).unwrap();
         assert_eq!(other.rank, verdict.rank, "{name}");
         assert_eq!(components(&graph, &other), found, "{name}");
-
-        // The paper's method may merge components, never split them.
-        let mut papers = paper_components::components(&field, &graph, &key(&graph, 1)).unwrap();
-        papers.sort();
-        if papers != found {
-            for part in &papers {
-                let refined: Vec<_> = found.iter().filter(|c| part.contains(&c[0])).collect();
-                assert_eq!(
-                    refined.iter().map(|c| c.len()).sum::<usize>(),
-                    part.len(),
-                    "{name}"
-                );
-                if refined.len() > 1 {
-                    assert!(is_flexible_alone(&field, part), "{name}: {part:?}");
-                }
-            }
-        }
     }
-}
-
-fn is_flexible_alone(field: &PrimeField, part: &[(u32, u32)]) -> bool {
-    let mut nodes: Vec<u32> = part.iter().flat_map(|&(i, j)| [i, j]).collect();
-    nodes.sort_unstable();
-    nodes.dedup();
-    let number = |v: &u32| nodes.binary_search(v).unwrap() as u32;
-    let pairs = part.iter().map(|(i, j)| (number(i), number(j))).collect();
-    let (alone, _) = Graph::from_pairs(nodes.len() as u32, pairs).unwrap();
-    textbook_rank(field, &alone) < 11 * alone.nodes() - 15
-}
-
-/// Ψ of docs/theory.md, Example 6.2, numbered so that the method starts in the 4-cycle
-/// 0, 1, 3, 2 (there 0, 9, 2, 10), which the rest holds together.
-#[test]
-fn the_papers_method_merges_components_of_psi() {
-    let psi = "0 4,0 6,5 7,6 7,7 8,7 9,7 10,3 5,3 8,4 9,4 10,0 1,1 3,0 2,2 3";
-    let pairs = psi.split(',').map(|pair| {
-        let (i, j) = pair.split_once(' ').unwrap();
-        (i.parse().unwrap(), j.parse().unwrap())
-    });
-    let (graph, _) = Graph::from_pairs(11, pairs.collect()).unwrap();
-    let field = PrimeField::mersenne61();
-    let papers = paper_components::components(&field, &graph, &key(&graph, 0)).unwrap();
-    assert_eq!(papers[0], [(0, 1), (0, 2), (1, 3), (2, 3)]);
-    assert!(is_flexible_alone(&field, &papers[0]));
-    let verdict = decide(&graph, &Options::default()).unwrap();
-    assert_eq!(components(&graph, &verdict).len(), 15);
 }
 
 #[test]

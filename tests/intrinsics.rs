@@ -309,8 +309,6 @@ fn advice_on_priors_is_in_words() {
         "--redundant=1",
         "--implied",
         "--explain=a",
-        "--sweep=20",
-        "--margin",
     ] {
         let run = with(TRIANGLE, "known a\n", &["advise", option]);
         assert_eq!(run.code, 2, "{option}");

@@ -115,9 +115,9 @@ fn few_pairs_are_named_and_those_from_one_place() {
     assert!(words.contains(warned), "{}", run.out);
 }
 
-/// What is whole by its tracks is offered no margin: that does not tell promises that are kept.
+/// What is whole by its tracks is offered nothing further.
 #[test]
-fn no_margin_for_tracks() {
+fn nothing_next_for_tracks() {
     let Some(path) = sample("real_sceaux_421.db") else {
         return;
     };

@@ -52,16 +52,6 @@ fn a_dash_is_standard_output_and_the_report_goes_to_standard_error() {
     let folder = tempfile::tempdir().unwrap();
     let graph = file(folder.path(), "square.txt", &cycle(4));
     let graph = text(&graph);
-    let is_picture = |run: &Run| {
-        assert!(run.out.starts_with("<svg"), "{}", run.out);
-        assert!(run.out.ends_with("</svg>\n"), "{}", run.out);
-    };
-    let run = verify(&["compare", graph, "--svg", "-"]);
-    is_picture(&run);
-    assert!(run.err.contains("all agree"), "{}", run.err);
-    let run = verify(&["audit", "--sweep-tolerance", graph, "--svg", "-"]);
-    is_picture(&run);
-    assert!(run.err.starts_with("tolerance,"), "{}", run.err);
     let run = verify(&["audit", graph, "--certificate", "-"]);
     assert!(is_certificate(&run.out), "{}", run.out);
     assert!(run.err.contains("result      agree"), "{}", run.err);
@@ -173,8 +163,6 @@ fn an_input_is_never_an_output() {
     fs::write(&graph, PAIR).unwrap();
     symlink("g.txt", at("link.txt")).unwrap();
     fs::hard_link(&graph, at("hard.txt")).unwrap();
-    let other = at("other.txt");
-    fs::write(&other, PAIR).unwrap();
     let table = at("claims.csv");
     fs::write(&table, "file,rank\ng.txt,8\n").unwrap();
     let before = names(folder.path());
@@ -188,10 +176,6 @@ fn an_input_is_never_an_output() {
             &verify(&["audit", &graph, "--certificate", name]),
             "this is the input",
         );
-        for command in [&["compare"][..], &["audit", "--sweep-tolerance"]] {
-            let arguments = [command, &[&other, &graph, "--svg", name]].concat();
-            refused(&verify(&arguments), "this is the input");
-        }
         // Of claims the graph is known when its row is read.
         let run = verify(&[
             "audit",
@@ -339,9 +323,6 @@ fn a_broken_pipe_is_quiet() {
     fs::create_dir(&certificates).unwrap();
     let certificate = format!("{certificates}/c.json");
     assert_eq!(verify(&[&graph, "--certificate", &certificate]).code, 1);
-    let shards = at("shards");
-    let shard = ["catalog", "--nodes", "6", "--out", &shards];
-    assert_eq!(verify(&shard).code, 0);
     let copy = at("copy.json");
     for arguments in [
         &[&graph[..]][..],
@@ -352,15 +333,9 @@ fn a_broken_pipe_is_quiet() {
         &["check", &certificates],
         &["catalog", "--nodes", "5"],
         &["catalog", "--nodes", "7", "--list"],
-        &["catalog", "merge", &shards],
         &["audit", &graph],
         &["audit", &graph, "--json", "--certificate", &copy],
-        &["audit", "--sweep-tolerance", &graph],
         &["audit", "--claims", &table],
-        &["compare", &graph],
-        &["compare", &graph, "--json"],
-        &["conditions", &graph],
-        &["conditions", &graph, "--json"],
     ] {
         let (reader, writer) = std::io::pipe().unwrap();
         drop(reader);

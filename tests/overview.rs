@@ -37,14 +37,11 @@ fn every_option_keeps_to_the_schema() {
         "--weak",
         "--suggest",
     ];
-    let advise = [&advise[..], &["--explain", "a", "--margin"]].concat();
+    let advise = [&advise[..], &["--explain", "a"]].concat();
     for model in ["projective", "calibrated", "affine"] {
         for (act, asked) in [
             (&export[..], &["export", "joints"][..]),
-            (
-                &advise,
-                &["weak", "suggestions", "explain", "margin", "joints"],
-            ),
+            (&advise, &["weak", "suggestions", "explain", "joints"]),
         ] {
             let options = [act, &["--model", model]].concat();
             let line = valid(&schema, &verify_with(TWO.as_bytes(), &options)).remove(0);
@@ -100,7 +97,7 @@ fn databases_keep_to_the_schema() {
         if !path.ends_with(".db") {
             continue;
         }
-        let pairs = verify(&["advise", "--json", "--sweep", "10,30", path]);
+        let pairs = verify(&["advise", "--json", "--weak", path]);
         if pairs.code == 2 {
             // What is no database of verified pairs has no overview either.
             assert_eq!(verify(&["overview", "--json", path]).code, 2, "{path}");
@@ -116,7 +113,7 @@ fn databases_keep_to_the_schema() {
                 "--tracks",
                 "--no-rigs",
                 "--components",
-                "--margin=2",
+                "--weak",
                 path,
             ]),
         );

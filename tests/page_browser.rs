@@ -393,7 +393,6 @@ fn cameras_and_points_have_a_page() {
         "--components",
         "--weak",
         "--suggest",
-        "--margin=2",
     ];
     let page = Page::of(
         tracks().as_bytes(),
@@ -436,9 +435,6 @@ fn cameras_and_points_have_a_page() {
         first.iter().any(|cell| cell.contains("merged")),
         "{first:?}"
     );
-    let margins = rows(&opened, "part-margin");
-    assert_eq!(margins.len(), 2);
-    assert!(margins[0][1].contains(" whole, "), "{margins:?}");
     assert!(
         !opened.contains("e+") && !opened.contains("single_pairs</"),
         "{opened}"
@@ -467,10 +463,7 @@ fn tracks_of_a_database_have_a_page() {
         ("names", 1, "0"),
     ] {
         let path = folder.join(format!("colmap/{name}.db"));
-        let page = Page::of(
-            b"",
-            &[path.to_str().unwrap(), "--tracks", "--suggest", "--margin"],
-        );
+        let page = Page::of(b"", &[path.to_str().unwrap(), "--tracks", "--suggest"]);
         let report = page.report();
         let opened = page.opened(&browser, "");
         agrees(&opened, &report);

@@ -31,21 +31,13 @@ fn graphs_are_read() {
     let folder = tempfile::tempdir().unwrap();
     let graph = place(folder.path(), "g6");
     std::fs::write(&graph, TRIANGLE).unwrap();
-    let commands = [
-        &[][..],
-        &["audit"],
-        &["audit", "--sweep-tolerance"],
-        &["compare"],
-        &["conditions"],
-        &["catalog", "--from"],
-    ];
+    let commands = [&[][..], &["audit"]];
     for command in commands {
         let mut arguments: Vec<&OsStr> = command.iter().map(OsStr::new).collect();
         arguments.push(graph.as_os_str());
         let (code, out, err) = verify(&arguments);
         assert_eq!(code, Some(0), "{command:?}: {out}{err}");
-        let named = out.contains("caf\u{fffd}.g6");
-        assert!(named || command.contains(&"--sweep-tolerance"), "{out}");
+        assert!(out.contains("caf\u{fffd}.g6"), "{out}");
     }
     let missing = place(folder.path(), "txt");
     let (code, out, err) = verify(&[&missing]);

@@ -3,8 +3,10 @@
 use std::collections::BTreeMap;
 use viewcert::graph::{Graph, graph6};
 use viewcert::solutions::{Effort, count};
+use viewcert::watch::Watch;
 use viewcert::{CountSolutions, Options, Projective, Value, decide};
-use viewcert_catalog::{Candidates, least_edges};
+use viewcert_catalog::candidates::has_adjacent_nodes_of_degree_2;
+use viewcert_catalog::{candidates, least_edges};
 
 /// The certificate of a graph with the evidence for its number of solutions; nothing if the graph is
 /// not finite solvable.
@@ -21,12 +23,8 @@ fn certificate(graph: &Graph) -> Option<String> {
 /// Verifies the certificates of every so many of the graphs with the fewest edges; how many of them
 /// have how many solutions. Graphs of which the verdict says it all have one.
 fn verified(nodes: usize, every: usize) -> BTreeMap<usize, usize> {
-    let mut graphs = Vec::new();
-    let candidates = Candidates::new(nodes, least_edges(nodes), true).unwrap();
-    candidates.for_each(&mut |graph| {
-        graphs.push(graph);
-        true
-    });
+    let mut graphs = candidates(nodes, least_edges(nodes), &Watch::default()).unwrap();
+    graphs.retain(|graph| !has_adjacent_nodes_of_degree_2(graph));
     let mut tally = BTreeMap::new();
     let certificates = graphs
         .iter()

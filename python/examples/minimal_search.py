@@ -9,15 +9,27 @@ several solutions?
 from __future__ import annotations
 
 import sys
+from typing import Iterator
 
 import networkx as nx
 import viewcert
 
 
+def minimal(nodes: int) -> Iterator[tuple[viewcert.Entry, nx.Graph]]:
+    """The minimal graphs, with at most as many pairs as keep a graph rigid in the plane."""
+    for pairs in range((11 * nodes - 9) // 7, 2 * nodes - 2):
+        for entry in viewcert.catalog(nodes, edges=pairs, necessary=True, solutions=True):
+            if entry.value == "not-finite-solvable":
+                continue
+            graph = nx.from_graph6_bytes(entry.graph6.encode())
+            rests = (nx.restricted_view(graph, [], [pair]) for pair in graph.edges())
+            if all(viewcert.verify(rest).value == "not-finite-solvable" for rest in rests):
+                yield entry, graph
+
+
 def main(nodes: int) -> int:
     found = 0
-    for entry in viewcert.catalog(nodes, minimal=True, solutions=True):
-        graph = nx.from_graph6_bytes(entry.graph6.encode())
+    for entry, graph in minimal(nodes):
         triangles = sum(nx.triangles(graph).values()) // 3
         several = entry.solutions not in ("1", "1-")
         if triangles and not several:

@@ -1,28 +1,21 @@
-//! The catalog: certified entries one by one, and shards.
+//! The catalog: certified entries one by one; labels.
 
 use crate::errors::{InputError, of_any, of_deciding};
-use crate::work::{self, Job, Told};
-use anyhow::{Context, bail, ensure};
+use crate::work::{self, Job};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
-use std::collections::BTreeMap;
-use std::fs::File;
-use std::path::PathBuf;
+use rayon::prelude::*;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 use viewcert::graph::graph6;
-use viewcert::linalg::prime::DEFAULT_PRIME;
+use viewcert::linalg::prime::{DEFAULT_PRIME, PrimeField};
 use viewcert::watch::Watch;
-use viewcert::{Graph, Options, Value, VerdictError};
+use viewcert::{CountSolutions, Graph, Options, Prime, Projective, VerdictError};
+use viewcert_catalog::candidates::has_adjacent_nodes_of_degree_2;
 use viewcert_catalog::label::{Label, greatest};
 use viewcert_catalog::mine::{COLUMNS, Entry};
-use viewcert_catalog::source::{Certified, Decided};
-use viewcert_catalog::verdict_files::{Blocks, KERNELS};
-use viewcert_catalog::work::Listener;
-use viewcert_catalog::{Settings, Shard, Source, Work};
-use viewcert_report::table;
-use viewcert_session::{Outputs, Progress};
+use viewcert_catalog::{candidates, least_edges};
 
 /// Candidates that are decided together.
 const BATCH: usize = 256;
@@ -33,12 +26,7 @@ const AHEAD: usize = 2;
 /// An entry with its certificate.
 type CertifiedEntry = (Entry, Vec<u8>);
 
-enum Problem {
-    Verdict(VerdictError),
-    Other(anyhow::Error),
-}
-
-type Batch = Result<Vec<CertifiedEntry>, Problem>;
+type Batch = Result<Vec<CertifiedEntry>, VerdictError>;
 
 /// The entries of a size, decided while they are taken.
 #[pyclass(frozen, module = "viewcert._native")]
@@ -56,34 +44,44 @@ struct Entries {
 impl Candidates {
     /// Begins the work.
     #[new]
-    #[pyo3(signature = (
-        nodes=None, *, from_file=None, edges=None, necessary=false, minimal=false, solutions=false, prime=None, seed=1
-    ))]
-    #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
+    #[pyo3(signature = (nodes, *, edges=None, necessary=false, solutions=false, prime=None, seed=1))]
     fn new(
         py: Python<'_>,
-        nodes: Option<usize>,
-        from_file: Option<PathBuf>,
+        nodes: usize,
         edges: Option<usize>,
         necessary: bool,
-        minimal: bool,
         solutions: bool,
         prime: Option<u64>,
         seed: u64,
     ) -> PyResult<Self> {
         let watch = Job::new(py)?.unobserved();
-        let options = settings(solutions, prime, seed)
-            .options(watch.clone())
-            .map_err(|error| of_any(&error))?;
+        let effort = match solutions {
+            true => CountSolutions::Quick,
+            false => CountSolutions::Off,
+        };
+        let prime = prime.unwrap_or(DEFAULT_PRIME);
+        let field = PrimeField::new(prime);
+        let field = field.map_err(|why| InputError::new_err(format!("prime={prime}: {why}")))?;
+        let options = Options::default()
+            .question(Projective::with_solutions(effort))
+            .prime(Prime::Fixed(field))
+            .seed(seed)
+            .watch(watch.clone());
+        let edges = edges.unwrap_or_else(|| least_edges(nodes.max(2)));
         // What cannot be asked for is refused now and not by the first entry.
-        let source = py
-            .detach(|| source_of(nodes, from_file, (edges, necessary, minimal)))
-            .map_err(|error| of_any(&error))?;
+        let graphs = py.detach(|| candidates(nodes, edges, &watch));
+        let mut graphs = graphs.map_err(|error| of_any(&error.into()))?;
+        if necessary && nodes > 3 {
+            graphs.retain(|graph| !has_adjacent_nodes_of_degree_2(graph));
+        }
         let threads = work::threads()?;
         let (sender, batches) = sync_channel(AHEAD);
         std::thread::Builder::new().spawn(move || {
-            let decide = |graphs: &[Graph]| threads.install(|| entries(graphs, &source, &options));
-            enumerate(&source, &sender, &decide);
+            let batches = graphs.chunks(BATCH);
+            send(
+                batches.map(|graphs| threads.install(|| entries(graphs, &options))),
+                &sender,
+            );
         })?;
         Ok(Self {
             watch,
@@ -110,8 +108,7 @@ impl Candidates {
                 }
                 Next::End => return Ok(None),
                 Next::NotYet => py.check_signals()?,
-                Next::Failed(Problem::Verdict(error)) => return Err(of_deciding(&error)),
-                Next::Failed(Problem::Other(error)) => return Err(of_any(&error)),
+                Next::Failed(error) => return Err(of_deciding(&error)),
             }
         }
     }
@@ -122,7 +119,7 @@ enum Next {
     Entry(Entry, Vec<u8>),
     NotYet,
     End,
-    Failed(Problem),
+    Failed(VerdictError),
 }
 
 impl Candidates {
@@ -151,86 +148,22 @@ impl Drop for Candidates {
     }
 }
 
-/// Where candidates come from.
-pub(crate) fn source(
-    nodes: usize,
-    edges: Option<usize>,
-    necessary: bool,
-    minimal: bool,
-) -> anyhow::Result<Source> {
-    if !minimal {
-        return Ok(Source::size(nodes, edges, necessary)?);
-    }
-    if edges.is_some() || necessary {
-        bail!("minimal graphs have all numbers of edges: leave out edges and necessary");
-    }
-    Source::minimal(nodes)
-}
-
-/// The same, or a file with a graph a line.
-fn source_of(
-    nodes: Option<usize>,
-    from_file: Option<PathBuf>,
-    (edges, necessary, minimal): (Option<usize>, bool, bool),
-) -> anyhow::Result<Source> {
-    match (nodes, from_file) {
-        (Some(nodes), None) => source(nodes, edges, necessary, minimal),
-        (None, Some(path)) if edges.is_none() && !necessary && !minimal => {
-            // Otherwise a file that is not there would be one without graphs.
-            let file = File::open(&path).and_then(|file| file.metadata());
-            let file = file.with_context(|| path.display().to_string())?;
-            ensure!(!file.is_dir(), "{}: is a directory", path.display());
-            Ok(Source::File { path })
-        }
-        (None, Some(_)) => {
-            bail!(
-                "from_file: its graphs are the candidates: leave out edges, necessary and minimal"
-            )
-        }
-        _ => bail!("give either the number of nodes or a file, from_file"),
-    }
-}
-
-pub(crate) fn settings(solutions: bool, prime: Option<u64>, seed: u64) -> Settings {
-    Settings {
-        solutions,
-        prime: prime.unwrap_or(DEFAULT_PRIME),
-        seed,
-    }
-}
-
-/// Sends the entries of all candidates, batch by batch, until nobody takes them.
-fn enumerate(source: &Source, sender: &SyncSender<Batch>, decide: &dyn Fn(&[Graph]) -> Batch) {
-    let mut waiting = Vec::with_capacity(BATCH);
-    let mut open = true;
-    let all = source.for_each(&mut |graph| {
-        match graph {
-            Ok(graph) => waiting.push(graph),
-            Err(error) => open = sender.send(Err(Problem::Other(error))).is_ok(),
-        }
-        if waiting.len() == BATCH {
-            open = sender.send(decide(&waiting)).is_ok();
-            waiting.clear();
-        }
-        open
-    });
-    if open {
-        // Whoever has gone does not miss it.
-        let _ = sender.send(match all {
-            Ok(()) => decide(&waiting),
-            Err(error) => Err(Problem::Other(error)),
-        });
-    }
+/// Sends batches until nobody takes them.
+fn send(mut batches: impl Iterator<Item = Batch>, sender: &SyncSender<Batch>) {
+    // Whoever has gone does not miss the rest.
+    let _ = batches.try_for_each(|batch| sender.send(batch));
 }
 
 /// The entries of some candidates, with certificates.
-fn entries(graphs: &[Graph], source: &Source, options: &Options) -> Batch {
-    let found = source.decide_all(graphs, options, Certified::All);
-    let with_certificate = |(entry, certificate): Decided| Some((entry, certificate?));
-    match found {
-        Ok(found) => Ok(found.into_iter().filter_map(with_certificate).collect()),
-        Err(error) => Err(Problem::Verdict(error)),
-    }
+fn entries(graphs: &[Graph], options: &Options) -> Batch {
+    let entries = graphs.par_iter().map(|graph| {
+        let verdict = viewcert::decide(graph, options)?;
+        let entry = Entry::new(graph, &verdict);
+        let certificate = verdict.certificate(graph).named(&entry.graph6);
+        let certificate = certificate.compact().to_string().into_bytes();
+        Ok((entry, certificate))
+    });
+    entries.collect()
 }
 
 /// The label of a graph, and the greatest line of graph6 of its relabellings; nothing if it has too many nodes.
@@ -249,194 +182,4 @@ pub(crate) fn label_graph6(label: &str) -> PyResult<String> {
     let parsed: Result<Label, _> = label.parse();
     let parsed = parsed.map_err(|error| InputError::new_err(format!("{label}: {error}")))?;
     Ok(graph6::encode(&parsed.graph()))
-}
-
-/// What is counted of all candidates: a `dict` of arguments in Python.
-#[derive(FromPyObject)]
-#[pyo3(from_item_all)]
-pub(crate) struct Counted {
-    nodes: Option<usize>,
-    from_file: Option<PathBuf>,
-    edges: Option<usize>,
-    necessary: bool,
-    minimal: bool,
-    solutions: bool,
-    verdicts: bool,
-    listed: bool,
-    prime: Option<u64>,
-    seed: u64,
-    threads: Option<usize>,
-}
-
-/// The counts of a size, by their names.
-#[derive(Default)]
-#[pyclass(frozen, get_all, module = "viewcert._native")]
-pub(crate) struct Census {
-    /// What was counted, in words.
-    name: String,
-    /// How many graphs have which answer.
-    counts: BTreeMap<&'static str, u64>,
-    /// How many have each number of solutions, or bounds for it.
-    solutions: BTreeMap<String, u64>,
-    /// With `verdicts` the digest of the set of finite-solvable graphs.
-    digest: Option<String>,
-    /// With `listed` the finite-solvable graphs, as graph6.
-    listed: Option<Vec<String>>,
-    /// Lines of a file that are no graphs, and why.
-    malformed: Vec<String>,
-    /// The table of the program.
-    table: String,
-}
-
-/// Decides all candidates of a size, or of a file, and counts them.
-#[pyfunction]
-#[pyo3(signature = (counted, *, progress=None))]
-pub(crate) fn census(
-    py: Python<'_>,
-    counted: Counted,
-    progress: Option<Py<PyAny>>,
-) -> PyResult<Census> {
-    let threads = work::threads_of(counted.threads)?;
-    let job = Job::within(py, (None, None), progress, Told::default())?;
-    let (stop, told) = (job.unobserved(), job.told());
-    let work = move || {
-        let (of_size, path) = (
-            (counted.edges, counted.necessary, counted.minimal),
-            counted.from_file.clone(),
-        );
-        let source = source_of(counted.nodes, path, of_size)?;
-        let teller = told.clone();
-        let what = match counted.verdicts {
-            true => "kernels",
-            false => "candidates",
-        };
-        let progress = Progress::to(Box::new(move |more| teller.counted(what, more)));
-        let settings = settings(counted.solutions, counted.prime, counted.seed);
-        let options = settings.options(stop.clone())?;
-        if counted.verdicts {
-            let blocks = Blocks::new(&source, counted.seed, KERNELS, Shard::default(), None)?;
-            told.expects(what, blocks.kernels());
-            return of_verdicts(&source, &blocks, &options, &progress, counted.listed);
-        }
-        if let Some(total) = source.total() {
-            told.expects(what, total);
-        }
-        of_entries(&source, settings, stop, progress, &counted)
-    };
-    let found: anyhow::Result<Census> = job.run(py, move || threads.install(work))?;
-    found.map_err(|error| of_any(&error))
-}
-
-/// A table of the program as text.
-pub(crate) fn text(
-    write: impl FnOnce(&mut Vec<u8>) -> std::io::Result<()>,
-) -> anyhow::Result<String> {
-    let mut out = Vec::new();
-    write(&mut out)?;
-    Ok(String::from_utf8(out)?)
-}
-
-/// Counts finite-solvable candidates alone.
-fn of_verdicts(
-    source: &Source,
-    blocks: &Blocks<'_>,
-    options: &Options,
-    progress: &Progress,
-    listed: bool,
-) -> anyhow::Result<Census> {
-    let mut lines = Vec::new();
-    let mut take = |more: Vec<String>| {
-        lines.extend(more);
-        Ok(())
-    };
-    let list: Option<&mut dyn FnMut(Vec<String>) -> anyhow::Result<()>> = match listed {
-        true => Some(&mut take),
-        false => None,
-    };
-    let tally = blocks.count(options, &Outputs::default(), progress, &mut |_| (), list)?;
-    let counts = [
-        ("candidates", tally.candidates),
-        ("finite_solvable", tally.count_finite_solvable()),
-        ("contracted", tally.unique),
-        ("refuted", tally.refuted()),
-        ("by_one_block", tally.by_one_block),
-        ("by_blocks", tally.by_blocks),
-        ("otherwise", tally.otherwise),
-        ("unproved", tally.unproved.len() as u64),
-    ];
-    let digest = Some(tally.finite_solvable.to_string());
-    let row = table::VerdictRow {
-        name: source.name(),
-        tally,
-        seconds: None,
-    };
-    Ok(Census {
-        name: source.name(),
-        counts: counts.into(),
-        digest,
-        listed: listed.then_some(lines),
-        table: text(|out| table::write_verdicts(out, &[row]))?,
-        ..Census::default()
-    })
-}
-
-/// Decides every candidate whole.
-fn of_entries(
-    source: &Source,
-    settings: Settings,
-    stop: Watch,
-    progress: Progress,
-    counted: &Counted,
-) -> anyhow::Result<Census> {
-    let (mut solutions, mut lines, mut malformed) = (BTreeMap::new(), Vec::new(), Vec::new());
-    let work = Work {
-        source,
-        settings,
-        shard: Shard::default(),
-        files: None,
-    };
-    let listener = Listener {
-        entry: &mut |entry| {
-            if let Some(words) = entry.solutions_in_words().filter(|_| counted.solutions) {
-                *solutions.entry(words).or_default() += 1;
-            }
-            if counted.listed && entry.value != Value::NotFiniteSolvable {
-                let [graph6, ..] = entry.cells();
-                lines.push(graph6);
-            }
-            Ok(())
-        },
-        malformed: &mut |error| {
-            malformed.push(format!("{error:#}"));
-            Ok(())
-        },
-        note: &mut |_| (),
-        progress,
-    };
-    let summary = work.run(&Outputs::default(), stop, listener)?;
-    let counts = [
-        ("candidates", summary.candidates),
-        ("finite_solvable", summary.finite_solvable()),
-        ("contracted", summary.unique),
-        ("refuted", summary.refuted),
-        ("by_a_hub", summary.hub),
-        ("unproved", summary.unproved),
-        ("rank_proved", summary.rank_proved),
-        ("components_proved", summary.components_proved),
-    ];
-    let row = table::Row {
-        name: source.name(),
-        summary,
-        solutions: solutions.clone(),
-        seconds: None,
-    };
-    Ok(Census {
-        name: source.name(),
-        counts: counts.into(),
-        solutions,
-        listed: counted.listed.then_some(lines),
-        malformed,
-        table: text(|out| table::write(out, &[row]))?,
-        ..Census::default()
-    })
 }

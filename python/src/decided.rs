@@ -430,9 +430,7 @@ impl Decided {
 
     /// What the program says: `kind` is `json`, `text` or `html`.
     #[pyo3(signature = (
-        kind, *, list_components=false, weak=None, suggest=None, explain=None, sweep=vec![],
-        margin=None, export=None, surplus=false,
-        redundant=None, implied=None, intrinsics=None, sensors=None
+        kind, *, list_components=false, weak=None, suggest=None, explain=None, export=None, surplus=false, redundant=None, implied=None, intrinsics=None, sensors=None
     ))]
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn report<'py>(
@@ -443,8 +441,6 @@ impl Decided {
         weak: Option<&str>,
         suggest: Option<u32>,
         explain: Option<String>,
-        sweep: Vec<u32>,
-        margin: Option<u32>,
         export: Option<PathBuf>,
         surplus: bool,
         redundant: Option<&str>,
@@ -478,8 +474,6 @@ impl Decided {
             implied,
             suggest,
             explain,
-            sweep,
-            margin,
             export,
         };
         let ((asked, rational, time), seed) = (self.asked(), self.seed);
@@ -488,7 +482,6 @@ impl Decided {
         let (threads, kind, stop) = (work::threads()?, kind.to_owned(), job.watch());
         let answer = move || -> anyhow::Result<Vec<u8>> {
             request.check(&[], &[])?;
-            request.check_input(&input)?;
             let mut scope = Scope::new(&input, &verdict, asked, &stop)?;
             if let Some(sensors) = sensors {
                 let found = Metric::with_sensors(&input.graph, &verdict, &sensors, seed, &stop)?;

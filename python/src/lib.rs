@@ -18,7 +18,6 @@ mod matrices;
 mod places;
 mod program;
 mod scenes;
-mod shards;
 mod studies;
 mod work;
 
@@ -30,7 +29,7 @@ mod _native {
     #[pymodule_export]
     use super::all::decide_all;
     #[pymodule_export]
-    use super::catalog::{Candidates, Census, census, label, label_graph6};
+    use super::catalog::{Candidates, label, label_graph6};
     #[pymodule_export]
     use super::check::{Verified, VerifiedIntrinsics, check, check_intrinsics};
     #[pymodule_export]
@@ -52,12 +51,7 @@ mod _native {
     #[pymodule_export]
     use super::scenes::{drawing, witness};
     #[pymodule_export]
-    use super::shards::{catalog_merge, catalog_shard};
-    #[pymodule_export]
-    use super::studies::{
-        Claims, audit, audit_at_cameras, formulations, models, of_conditions, singular_value,
-        tolerances,
-    };
+    use super::studies::{Claims, audit, audit_at_cameras, models, singular_value};
 
     use super::*;
 

@@ -6,13 +6,12 @@ use crate::work::{self, Job};
 use pyo3::prelude::*;
 use std::sync::Arc;
 use viewcert::geometry::camera::{Camera, centre};
-use viewcert::geometry::jacobian::{SparseRows, augmented, fundamental, jacobian};
+use viewcert::geometry::jacobian::{SparseRows, augmented, fundamental, jacobian, reference};
 use viewcert::geometry::plane_direction::direction_rows;
 use viewcert::geometry::plane_flow::rigidity_rows;
 use viewcert::linalg::rational::{Rational, Rationals};
 use viewcert::linalg::{Field, Ring};
 use viewcert_formats::NamedGraph;
-use viewcert_studies::formulation::augmented::reference;
 
 /// What is given of each node.
 enum Given {

@@ -1,5 +1,4 @@
-//! What the literature is compared with: models side by side, conditions, formulations, floating point and
-//! the claims of others.
+//! Models side by side, floating point beside the exact verdict, and the claims of others.
 //!
 //! In: graphs and verdicts. Out: what the report crate says, as JSON and as text.
 
@@ -7,26 +6,22 @@ use crate::decided::{Decided, Wanted};
 use crate::errors::{InputError, TooLarge, of_any, of_deciding};
 use crate::graph::Graph;
 use crate::here::AtCameras;
-use crate::work::{self, Job, Told};
-use anyhow::{Context, anyhow};
+use crate::work::{self, Job};
+use anyhow::anyhow;
 use pyo3::prelude::*;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
-use viewcert::linalg::prime::{DEFAULT_PRIME, PrimeField};
 use viewcert::linalg::rational::Rational;
+use viewcert_audit::at_cameras::{FloatClaim, SigmaError, read_table, rule, sigma};
+use viewcert_audit::beside::Beside;
+use viewcert_audit::enclosure::Matrix;
+use viewcert_audit::{AuditError, Options as FloatOptions, claims};
 use viewcert_report::at_cameras::AtCameras as AtCamerasReport;
+use viewcert_report::audit as audit_report;
 use viewcert_report::audit::Audit;
 use viewcert_report::rulings::Ruled;
-use viewcert_report::{audit as audit_report, bars, comparison, conditions as condition_report};
 use viewcert_report::{models as model_report, rulings};
-use viewcert_studies::audit::at_cameras::{FloatClaim, SigmaError, read_table, rule, sigma};
-use viewcert_studies::audit::beside::Beside;
-use viewcert_studies::audit::study::{self, Populations};
-use viewcert_studies::audit::{AuditError, Options as FloatOptions, claims};
-use viewcert_studies::conditions;
-use viewcert_studies::enclosure::Matrix;
-use viewcert_studies::formulation::compare::{self, Limits, MAX_RATIONALS, MAX_RESIDUES};
 
 /// What is said for programs, as JSON, and for people.
 type Said = (String, String);
@@ -58,63 +53,6 @@ pub(crate) fn models(py: Python<'_>, decided: Vec<Py<Decided>>) -> PyResult<Said
             |out| model_report::text(out, input, &verdicts, &changes),
         )
     })?;
-    found.map_err(|error| of_any(&error))
-}
-
-/// The conditions of the literature on a graph.
-#[pyfunction]
-pub(crate) fn of_conditions(py: Python<'_>, graph: &Graph) -> PyResult<Said> {
-    let input = Arc::clone(&graph.0);
-    let found = Job::new(py)?.run(py, move || {
-        let found = conditions::decide(&input.graph);
-        said(
-            |out| condition_report::json(out, &input, &found),
-            |out| condition_report::text(out, &input, &found),
-        )
-    })?;
-    found.map_err(|error| of_any(&error))
-}
-
-/// The formulations of the literature on a graph, and a picture of the sizes of their matrices: of
-/// projective or affine cameras, modulo a prime or at cameras with small rational entries; matrices with
-/// more entries than `limit` are not eliminated.
-#[pyfunction]
-#[pyo3(signature = (graph, *, affine=false, prime=None, bounds=None, seed=1, limit=None))]
-pub(crate) fn formulations(
-    py: Python<'_>,
-    graph: &Graph,
-    affine: bool,
-    prime: Option<u64>,
-    bounds: Option<(u64, u64)>,
-    seed: u64,
-    limit: Option<usize>,
-) -> PyResult<(String, String, String)> {
-    let input = Arc::clone(&graph.0);
-    let prime = prime.unwrap_or(DEFAULT_PRIME);
-    let field = PrimeField::new(prime);
-    let field = field.map_err(|error| InputError::new_err(format!("prime={prime}: {error}")))?;
-    let job = Job::new(py)?;
-    let threads = work::threads()?;
-    let work = move || {
-        let most = match bounds {
-            None => MAX_RESIDUES,
-            Some(_) => MAX_RATIONALS,
-        };
-        let (limits, graph) = (Limits::new(limit.unwrap_or(most)), &input.graph);
-        let found = match (bounds, affine) {
-            (None, false) => compare::modular(&field, graph, seed, &limits),
-            (None, true) => compare::affine::modular(&field, graph, seed, &limits),
-            (Some(bounds), false) => compare::rational(graph, bounds, seed, &limits),
-            (Some(bounds), true) => compare::affine::rational(graph, bounds, seed, &limits),
-        };
-        let found = found.with_context(|| input.name.clone())?;
-        let (json, text) = said(
-            |out| comparison::json(out, &input, &found),
-            |out| comparison::text(out, &input, &found),
-        )?;
-        Ok((json, text, bars::draw(&comparison::sizes(&input, &found))))
-    };
-    let found: anyhow::Result<_> = job.run(py, move || threads.install(work))?;
     found.map_err(|error| of_any(&error))
 }
 
@@ -173,48 +111,6 @@ pub(crate) fn audit(
     found
         .map_err(|error| of_doubles(&error))?
         .map_err(|error| of_any(&error))
-}
-
-/// How often tolerances misjudge graphs that were decided, at so many draws of each: for each tolerance, the
-/// given one first, its errors among not solvable and solvable draws; how many draws there are of both, and
-/// how many have no verdict.
-#[pyfunction]
-#[expect(clippy::type_complexity, reason = "a tuple of Python")]
-pub(crate) fn tolerances(
-    py: Python<'_>,
-    decided: Vec<Py<Decided>>,
-    tolerance: f64,
-    method: &str,
-    draws: u64,
-    seed: u64,
-) -> PyResult<(Vec<(f64, usize, usize)>, [usize; 3])> {
-    let options = float_options(tolerance, method, seed)?;
-    let answers: Vec<_> = decided.iter().map(|one| one.get().answer()).collect();
-    let told = Told::expecting("graphs", answers.len() as u64);
-    let job = Job::within(py, (None, None), None, told)?;
-    let (teller, threads) = (job.told(), work::threads()?);
-    let work = move || {
-        let mut populations = Populations::default();
-        for (input, verdict) in &answers {
-            let values = study::eigenvalues(&input.graph, &options, 0..draws)?;
-            populations.add(verdict.value != viewcert::Value::NotFiniteSolvable, &values);
-            teller.counted("graphs", 1);
-        }
-        let first = populations.errors(tolerance);
-        let all = std::iter::once(first).chain(populations.sweep());
-        let rows = all.map(|errors| {
-            (
-                errors.tolerance,
-                errors.false_solvable,
-                errors.false_not_solvable,
-            )
-        });
-        let (not_solvable, solvable) = (&populations.not_solvable, &populations.solvable);
-        let counts = [not_solvable.len(), solvable.len(), populations.undecided];
-        Ok((rows.collect(), counts))
-    };
-    let found: Result<_, AuditError> = job.run(py, move || threads.install(work))?;
-    found.map_err(|error| of_doubles(&error))
 }
 
 /// A table of claims.

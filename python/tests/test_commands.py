@@ -38,7 +38,7 @@ def run(*words: str) -> tuple[int, str, str]:
     [
         ((SOLVABLE,), 0),
         ((HOUSE, "--model", "projective"), 1),
-        (("conditions", SOLVABLE), 0),
+        (("models", SOLVABLE), 0),
         (("label", "absent.g6"), 2),
         (("--version",), 0),
         (("--help",), 0),
@@ -65,7 +65,7 @@ def test_a_certificate_by_both(tmp_path: pathlib.Path) -> None:
 
 
 def test_an_interrupt_ends_it() -> None:
-    words = [*command("verify"), "catalog", "--nodes", "14"]
+    words = [*command("verify"), "catalog", "--nodes", "12"]
     process = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     time.sleep(3)
     assert process.poll() is None

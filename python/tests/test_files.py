@@ -190,31 +190,3 @@ def test_no_archive(tmp_path: pathlib.Path) -> None:
     (tmp_path / "manifest.json").write_text("{}")
     with pytest.raises(viewcert.InputError, match="not a manifest"):
         viewcert.check_all(tmp_path)
-
-
-def test_counts_of_the_catalog(tmp_path: pathlib.Path, program: Program) -> None:
-    # As published (docs/catalog.md).
-    found = viewcert.census(8, solutions=True, graphs=True)
-    assert found.graphs is not None
-    assert (found.counts["candidates"], found.counts["finite_solvable"]) == (161, len(found.graphs))
-    assert sum(found.solutions.values()) == len(found.graphs)
-    values = {entry.graph6 for entry in viewcert.catalog(8) if entry.value != "not-finite-solvable"}
-    assert set(found.graphs) == values
-    quick = viewcert.census(8, verdicts=True, graphs=True)
-    assert quick.graphs is not None and quick.digest
-    assert {viewcert.label(nx.from_graph6_bytes(line.encode())) for line in quick.graphs} == {
-        viewcert.label(nx.from_graph6_bytes(line.encode())) for line in found.graphs
-    }
-    table = program.run("catalog", "--nodes", "8", "--verdicts").stdout
-    assert quick.digest in table
-
-    path = tmp_path / "some.g6"
-    path.write_text("\n".join([*found.graphs, "!"]) + "\n")
-    of_file = viewcert.census(from_file=path)
-    assert of_file.counts["candidates"] == of_file.counts["finite_solvable"] == len(found.graphs)
-    assert len(of_file.malformed) == 1
-    path.write_text("\n".join(found.graphs) + "\n")
-    assert [entry.graph6 for entry in viewcert.catalog(from_file=path)] == list(found.graphs)
-    for wrong in ({}, {"nodes": 5, "from_file": path}, {"from_file": path, "minimal": True}):
-        with pytest.raises(viewcert.InputError):
-            viewcert.census(**wrong)  # type: ignore[arg-type]

@@ -184,9 +184,7 @@ def test_what_to_do_is_what_the_program_says(
     graph = viewcert.from_database(path)
     verdict = viewcert.verify(graph)
     image = str(graph.nodes[0])
-    [found] = program.json(
-        "advise", path, "--weak", "--suggest", "--explain", image, "--sweep", "15,30", "--margin=3"
-    )
+    [found] = program.json("advise", path, "--weak", "--suggest", "--explain", image)
     weak = [[list(item.nodes), item.component + 1] for item in viewcert.weak(verdict)]
     assert weak == [[item["images"], item["component"]] for item in found["weak"]["items"]]
     suggested = [[list(map(list, one.pairs)), one.gain] for one in viewcert.suggest(verdict)]
@@ -195,12 +193,6 @@ def test_what_to_do_is_what_the_program_says(
     assert explained.node == image
     assert [part + 1 for part in explained.components] == found["explain"]["components"]
     assert explained.pairs_inside == found["explain"]["pairs_inside"]
-    rows = viewcert.sweep(verdict, [15, 30])
-    assert [row.largest for row in rows] == [row["largest"] for row in found["sweep"]]
-    margins = viewcert.margin(verdict, 3)
-    assert [list(part.whole) for part in margins] == [
-        part["whole"] for part in found["margin"]["components"]
-    ]
     ours, theirs = tmp_path / "ours", tmp_path / "theirs"
     export = viewcert.export(verdict, ours)
     program.run("export", path, theirs)
@@ -213,8 +205,6 @@ def test_what_to_do_is_what_the_program_says(
 
 def test_a_refused_question_says_what_is_missing(tmp_path: pathlib.Path) -> None:
     triangle = [(0, 1), (0, 2), (1, 2)]
-    with pytest.raises(viewcert.InputError, match=r"from_database reads them, and viewcert\.Graph\(graph, inliers="):
-        viewcert.sweep(triangle, [15])
     with pytest.raises(viewcert.InputError, match="7 is no node of the graph; .* such as 0"):
         viewcert.explain(triangle, 7)
     (tmp_path / "precious.txt").write_text("mine")

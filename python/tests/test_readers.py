@@ -101,8 +101,6 @@ def test_tracks_have_a_model_of_their_own(synthetic: pathlib.Path) -> None:
     graph = viewcert.tracks_from_database(synthetic / "database.db")
     with pytest.raises(viewcert.InputError, match="only the calibrated model"):
         viewcert.verify(graph, model="projective")
-    with pytest.raises(viewcert.InputError, match="^sweep decides graphs of pairs"):
-        viewcert.sweep(graph, [10])
 
 
 def test_cameras_without_points_are_components(tmp_path: pathlib.Path) -> None:

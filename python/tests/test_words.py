@@ -115,18 +115,12 @@ def test_what_cannot_be_asked_names_the_argument(tmp_path: pathlib.Path) -> None
     for ask, words in (
         (lambda: viewcert.weak(triangle, of="edges"), "of='edges': give 'pairs' or 'images'"),
         (lambda: viewcert.redundant(triangle, of="edges"), "of='edges': give 'pairs' or 'images'"),
-        (lambda: viewcert.redundant(triangle, 3), "lost=3: give an integer from 1 to 2"),
         (lambda: viewcert.suggest(triangle, 0), "most=0: give an integer from 1"),
         (lambda: viewcert.suggest(triangle, "3"), "most='3': give an integer"),  # type: ignore[arg-type]
         (lambda: viewcert.implied(triangle, -1), "most=-1: give an integer from 0"),
-        (lambda: viewcert.margin(triangle, 2**70), "draws=1180591620717411303424: give an integer from 1 to 10000"),
-        (lambda: viewcert.sweep(viewcert.Graph(triangle), [-1]), "thresholds=-1: give an integer from 0"),
         (lambda: viewcert.explain(triangle, [0]), r"\[0\] is no node of the graph"),
         (lambda: viewcert.verify_all(viewcert.Graph(triangle)), "give a list of graphs"),  # type: ignore[call-overload]
         (lambda: viewcert.at_cameras(triangle, tmp_path / "no.txt"), "no.txt: No such file or directory$"),
-        (lambda: viewcert.catalog_merge(tmp_path / "no"), "no: No such file or directory$"),
-        (lambda: viewcert.census(from_file=tmp_path / "no.g6"), "no.g6: No such file or directory$"),
-        (lambda: viewcert.catalog(from_file=tmp_path), "is a directory$"),
     ):
         with pytest.raises(viewcert.InputError, match=words):
             ask()

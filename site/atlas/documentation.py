@@ -21,10 +21,11 @@ CRATES = {"viewcert": "crates/core", "viewcert-check": "crates/check"}
 BESIDE = {
     "README.md": "index.md", "proofs/README.md": "proofs.md", "python/README.md": "python.md", "certificates/README.md": "certificates.md",
     "benches/README.md": "benches.md", "CHANGELOG.md": "changelog.md", "crates/check/second/README.md": "second.md", "site/README.md": "site.md",
+    "lab/README.md": "lab.md", "lab/docs/catalog.md": "lab-catalog.md", "lab/docs/studies.md": "studies.md", "lab/docs/paper.md": "paper.md",
 }
 ORDER = {
     "Begin": ["tutorials", "symptoms", "glossary", "input", "databases", "models", "reconstruction", "python", "api", "pyrigi", "rust"],
-    "Atlas": ["catalog", "The published folder <certificates>", "paper", "audit"],
+    "Atlas": ["catalog", "The published folder <certificates>", "audit", "lab", "lab-catalog", "studies", "paper"],
     "Theory and proof": ["theory", "statements", "formulas", "certificate", "proof", "proofs", "second"],
     "The project": ["benches", "site", "house", "changelog"],
 }

@@ -9,14 +9,14 @@ use std::io::Write;
 use std::path::Path;
 use viewcert::Model;
 use viewcert::here::{Centres, Here};
+use viewcert_audit::at_cameras::{self, FloatClaim, SigmaError, read_table, rule};
+use viewcert_audit::claims::Ruling;
+use viewcert_audit::enclosure::{Enclosure, Matrix};
 use viewcert_formats::{NamedGraph, cameras_beside, whole};
 use viewcert_report::at_cameras::AtCameras;
 use viewcert_report::size;
 use viewcert_session::exit::{GOOD, NOT, TooLarge};
 use viewcert_session::{Session, outputs};
-use viewcert_studies::audit::at_cameras::{self, FloatClaim, SigmaError, read_table, rule};
-use viewcert_studies::audit::claims::Ruling;
-use viewcert_studies::enclosure::{Enclosure, Matrix};
 
 /// The exact answer in one model, and the cameras as they were read.
 struct Exact {

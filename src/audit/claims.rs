@@ -6,14 +6,14 @@ use anyhow::{Context, Result, anyhow, bail};
 use std::io::Write;
 use std::path::Path;
 use viewcert::decide;
+use viewcert_audit::claims;
+use viewcert_audit::claims::{Claim, Row, Ruling};
 use viewcert_formats::{NamedGraph, whole};
 use viewcert_report::counted;
 use viewcert_report::rulings::{self, Ruled};
 use viewcert_session::Session;
 use viewcert_session::exit::{GOOD, NOT, ends_run};
 use viewcert_session::outputs;
-use viewcert_studies::audit::claims;
-use viewcert_studies::audit::claims::{Claim, Row, Ruling};
 
 /// Rules on all rows; a bad one is reported and does not stop the others.
 pub(super) fn run(session: &Session, arguments: &AuditArguments, path: &Path) -> Result<u8> {

@@ -3,7 +3,6 @@
 
 mod cameras;
 mod claims;
-mod sweep;
 
 use super::certificates::Target;
 use super::input::InputArguments;
@@ -13,15 +12,15 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use viewcert::decide;
+use viewcert_audit as audit;
+use viewcert_audit::beside::Beside;
+use viewcert_audit::{AuditError, Method, TOLERANCE};
 use viewcert_formats::NamedGraph;
 use viewcert_report::audit::{self as report, Audit};
 use viewcert_session::Session;
 use viewcert_session::exit;
 use viewcert_session::exit::{GOOD, NOT};
 use viewcert_session::outputs;
-use viewcert_studies::audit;
-use viewcert_studies::audit::beside::Beside;
-use viewcert_studies::audit::{AuditError, Method, TOLERANCE};
 
 /// Options of the audit.
 #[derive(Args)]
@@ -40,7 +39,7 @@ pub(super) struct AuditArguments {
     /// What is so at the cameras of this file (see `verify help given`), with the smallest singular value
     /// of the Jacobian there, enclosed by integers.
     #[arg(long, value_name = "FILE")]
-    #[arg(conflicts_with_all = ["claims", "sweep_tolerance", "certificate", "tolerance", "method", "draws"])]
+    #[arg(conflicts_with_all = ["claims", "certificate", "tolerance", "method", "draws"])]
     cameras: Option<PathBuf>,
     /// Rule on floating-point results at these cameras: CSV with the columns verdict, rank,
     /// components, sigma (docs/audit.md).
@@ -75,13 +74,6 @@ pub(super) struct AuditArguments {
     #[arg(long, value_name = "K", default_value_t = 1, conflicts_with = "claims")]
     #[arg(value_parser = clap::value_parser!(u64).range(1..))]
     draws: u64,
-    /// Print, as CSV, how often each tolerance misjudges the given graphs.
-    #[arg(long, conflicts_with_all = ["claims", "json", "certificate"])]
-    sweep_tolerance: bool,
-    /// Draw the two populations and the errors to this file (`-`: to standard output, and the
-    /// table to standard error).
-    #[arg(long, value_name = "FILE", requires = "sweep_tolerance")]
-    svg: Option<PathBuf>,
     /// Write the exact side's certificate to this file, or for every graph to this folder
     /// (with --claims: of every refuted row); `-`: to standard output, and the report to
     /// standard error.
@@ -156,9 +148,6 @@ pub(super) fn run(session: &Session, arguments: &AuditArguments) -> Result<u8> {
     }
     if let Some(path) = &arguments.cameras {
         return cameras::run(session, arguments, path);
-    }
-    if arguments.sweep_tolerance {
-        return sweep::run(session, arguments);
     }
     let mut target = arguments.target(&arguments.graphs)?;
     let too_many = |what: &str| Some(Target::too_many(arguments.single()?, what));

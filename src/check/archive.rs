@@ -8,10 +8,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 use std::{fs, iter};
-use viewcert_catalog::folder::{Completeness, Listing, is_list};
-use viewcert_catalog::manifest::Contents;
 use viewcert_check::program::{is_certificate, no_certificate};
 use viewcert_check::{Failure, Rejection};
+use viewcert_formats::folder::{Completeness, Listing, is_list};
+use viewcert_formats::manifest::Contents;
 use viewcert_session::printable;
 
 /// Certificates that are read before they are checked together.

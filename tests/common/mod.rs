@@ -60,7 +60,7 @@ pub fn root() -> &'static Path {
     let package = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut above = package.ancestors();
     above
-        .find(|folder| folder.join("Cargo.lock").exists())
+        .find(|folder| folder.join("CITATION.cff").exists())
         .unwrap()
 }
 

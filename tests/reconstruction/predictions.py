@@ -226,12 +226,6 @@ def run(arguments):
         print(path.stem, {mapper: [len(names(m)) for m in found] for mapper, found in models.items()}, flush=True)
 
 
-def thin(verify, path):
-    """Whether the largest component falls apart when half of the tracks are missing."""
-    margin = asked(verify, "advise", "--tracks", "--margin", path)["margin"]
-    return 2 * margin["components"][0]["whole"][margin["missing"].index(50)] < margin["draws"]
-
-
 def together(models, one, other):
     """Whether a model has more than half of both."""
     return any(all(2 * len(model & side) > len(side) for side in (one, other)) for model in models)
@@ -270,8 +264,6 @@ def judge(arguments):
                 of_promise = "kept" if placed else "broken"
                 tally[of_promise] += 1
                 tally[of_promise, "warned"] += warned
-                if arguments.margin:
-                    tally[of_promise, "thin"] += thin(arguments.verify, str(record.with_suffix(".db")))
             if joined != expected and arguments.misses:
                 print(f"{record.stem} {a}-{b} {truth['shapes']}: incremental {sizes(models)}, predicted {sizes(predicted)}")
     for of in ("synthetic", "joined", "photographs"):
@@ -291,7 +283,7 @@ def judge(arguments):
 
     print("\npromises of global mapping:", *(
         f"{tally[what]} {what}, {tally[what, 'warned']} of them warned of"
-        + (f", {tally[what, 'thin']} thin by --margin" if arguments.margin else "") + ";"
+        + ";"
         for what in ("kept", "broken")))
 
 
@@ -303,7 +295,6 @@ def main():
     parser.add_argument("--seeds", default="1-300")
     parser.add_argument("--verify", default="target/debug/verify")
     parser.add_argument("--joined", action="store_true", help="clusters that hang on two images, some in one place")
-    parser.add_argument("--margin", action="store_true", help="what verify advise --margin says of promises")
     parser.add_argument("--misses", action="store_true", help="print every pair of clusters that was not foreseen")
     arguments = parser.parse_args()
     pycolmap.logging.minloglevel = 3

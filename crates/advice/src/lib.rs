@@ -1,9 +1,8 @@
 //! What a verdict means for a reconstruction, and what to do about it (docs/reconstruction.md).
 //!
 //! In: a graph and its verdict. Out: joints between components, pairs and images that everything
-//! hangs on, pairs that would join components, margins. Every statement is decided exactly by
-//! [`viewcert`], or says how often a random experiment came out; cores are those of
-//! docs/theory.md, section 4. [`Request`] asks for several of these at once and answers in the user's
+//! hangs on, pairs that would join components. Every statement is decided exactly by
+//! [`viewcert`]; cores are those of docs/theory.md, section 4. [`Request`] asks for several of these at once and answers in the user's
 //! names ([`named`]); [`export`] writes components as COLMAP takes them.
 
 pub mod explain;
@@ -11,7 +10,6 @@ pub mod export;
 pub mod joints;
 pub mod lists;
 pub mod mapper;
-pub mod margin;
 pub mod merge;
 pub mod named;
 pub mod narrow;
@@ -22,7 +20,6 @@ pub mod request;
 pub mod special;
 pub mod split;
 pub mod suggest;
-pub mod sweep;
 pub mod weak;
 
 mod condensation;
@@ -37,7 +34,6 @@ mod words;
 pub use explain::{Explanation, explain};
 pub use foreseen::foreseen;
 pub use joints::{How, Joint, Joints, Shapes, joints};
-pub use margin::{Margin, Thinning, margin};
 pub use named::Advice;
 pub use noticed::{Break, Lost, Surplus, redundant, surplus};
 pub use parts::{Part, Parts};
@@ -45,7 +41,6 @@ pub use request::Request;
 pub use suggest::{
     Candidate, Near, Nearness, Reason, SuggestedMatch, Suggestion, Tried, suggest, suggest_matches,
 };
-pub use sweep::{Row, sweep};
 pub use task::{Weak, named_joints};
 pub use viewcert_formats::OtherPair;
 pub use weak::{WeakImage, WeakPair, Why, weak_images, weak_pairs};

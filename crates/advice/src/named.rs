@@ -1,7 +1,6 @@
 //! What was found, in the user's names: the members of `verify --json` (docs/reconstruction.md).
 //! Components are counted from 1 here, as in the text.
 
-use crate::margin::MISSING;
 use crate::noticed::{Implied, Redundant, Surpluses};
 use serde::Serialize;
 use viewcert_formats::NamedGraph;
@@ -40,12 +39,6 @@ pub struct Advice {
     /// One image.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub explain: Option<Explain>,
-    /// A row for each threshold.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub sweep: Option<Vec<SweepRow>>,
-    /// How much can be missing.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub margin: Option<Margin>,
     /// What was written.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub export: Option<Export>,
@@ -248,53 +241,6 @@ pub struct Unused {
     pub inliers: u32,
     /// Its matches before verification, if they are known.
     pub matches: Option<u32>,
-}
-
-/// What a threshold gives.
-#[derive(Clone, Debug, Serialize)]
-pub struct SweepRow {
-    /// The least number of inliers.
-    pub threshold: u32,
-    /// How many pairs are left.
-    pub pairs: usize,
-    /// How many images.
-    pub images: usize,
-    /// The number of connected components.
-    pub connected: usize,
-    /// The number of components that are more than a pair.
-    pub components: usize,
-    /// How many pairs are components by themselves.
-    pub single_pairs: usize,
-    /// How many images the largest component has.
-    pub largest: usize,
-    /// The verdict.
-    pub verdict: &'static str,
-}
-
-/// Random thinnings.
-#[derive(Clone, Debug, Serialize)]
-pub struct Margin {
-    /// `pairs` or `tracks`.
-    pub of: &'static str,
-    /// How often, for each share.
-    pub draws: u32,
-    /// The seed of the draws.
-    pub seed: u64,
-    /// Percent left out.
-    pub missing: [u32; MISSING.len()],
-    /// What became of each component.
-    pub components: Vec<MarginOf>,
-}
-
-/// What random thinnings leave of a component.
-#[derive(Clone, Debug, Serialize)]
-pub struct MarginOf {
-    /// The component.
-    pub component: usize,
-    /// How many draws left it whole, for each of `missing`.
-    pub whole: [u32; MISSING.len()],
-    /// What percentage of its images stays in one component, on average and rounded down.
-    pub together: [u64; MISSING.len()],
 }
 
 /// What was written.

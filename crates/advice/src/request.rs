@@ -25,10 +25,6 @@ pub struct Request {
     pub suggest: Option<u32>,
     /// An image, by its label, to be explained.
     pub explain: Option<String>,
-    /// Least numbers of inliers with which a database is decided again.
-    pub sweep: Vec<u32>,
-    /// How often pairs (or tracks) are left out at random.
-    pub margin: Option<u32>,
     /// The folder that gets the components as COLMAP takes them.
     pub export: Option<PathBuf>,
 }
@@ -64,8 +60,6 @@ impl Request {
             (self.implied.is_some(), "--implied"),
             (self.suggest.is_some(), "--suggest"),
             (self.explain.is_some(), "--explain"),
-            (!self.sweep.is_empty(), "--sweep"),
-            (self.margin.is_some(), "--margin"),
         ];
         let asked = asked.into_iter();
         asked.filter_map(|(asked, option)| asked.then_some(option))
@@ -80,24 +74,6 @@ impl Request {
     /// The first option that has no answer where cameras have classes, if there is one.
     pub fn asked_without_classes(&self) -> Option<&'static str> {
         self.asked_of_pairs().find(|&option| option != "--suggest")
-    }
-
-    /// Refuses what a graph has no answer to.
-    ///
-    /// # Errors
-    /// What is missing in it.
-    pub fn check_input(&self, input: &NamedGraph) -> Result<()> {
-        ensure!(
-            self.sweep.is_empty() || input.cameras.is_none(),
-            "--sweep decides graphs of pairs; leave out --tracks, or ask for tracks with each \
-             --min-inliers in turn"
-        );
-        ensure!(
-            self.sweep.is_empty() || input.matching.is_some(),
-            "--sweep needs the number of inliers of every pair, which only a COLMAP database has; \
-             leave it out, or name the database"
-        );
-        Ok(())
     }
 
     /// Whether more than the joints is asked for.
@@ -170,12 +146,6 @@ impl Request {
         }
         if let Some(image) = &self.explain {
             advice.explain = Some(task.explain(&joints, image)?);
-        }
-        if !self.sweep.is_empty() {
-            advice.sweep = Some(task.sweep(&self.sweep)?);
-        }
-        if let Some(draws) = self.margin {
-            advice.margin = Some(task.margin(draws, seed)?);
         }
         if let Some(folder) = &self.export {
             advice.export = Some(export::write(outputs, folder, &task, &advice.joints)?);

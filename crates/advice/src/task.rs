@@ -2,11 +2,10 @@
 
 use crate as advice;
 use crate::mapper::Thresholds;
-use crate::margin::MISSING;
 use crate::named::{self, Advice, Names};
 use crate::suggest::{IMAGE_NEEDS, PAIR_NEEDS, Wanted};
 use crate::words::Scales;
-use crate::{Candidate, Known, Nearness, OtherPair, Parts, Shapes, Thinning, words};
+use crate::{Candidate, Known, Nearness, OtherPair, Parts, Shapes, words};
 use anyhow::{Context, Result};
 use std::collections::BTreeMap;
 use viewcert::decide::{Options, Question};
@@ -389,45 +388,6 @@ impl<'a> Task<'a> {
         let mut sees: Vec<named::SeesOf> = counts.collect();
         sees.sort_by_key(|sees| std::cmp::Reverse(sees.points));
         sees
-    }
-
-    pub(crate) fn sweep(&self, thresholds: &[u32]) -> Result<Vec<named::SweepRow>> {
-        let graph = &self.input.graph;
-        let rows = advice::sweep(graph, self.known, thresholds, &self.options);
-        let rows = rows.context("--sweep")?;
-        let named = rows.into_iter().map(|row| named::SweepRow {
-            threshold: row.threshold,
-            pairs: row.pairs,
-            images: row.images,
-            connected: row.connected,
-            components: row.parts,
-            single_pairs: row.links,
-            largest: row.largest,
-            verdict: row.value.name(),
-        });
-        Ok(named.collect())
-    }
-
-    pub(crate) fn margin(&self, draws: u32, seed: u64) -> Result<named::Margin> {
-        let thinning = Thinning { draws, seed };
-        let (graph, cameras) = (&self.input.graph, self.input.cameras);
-        let found = advice::margin(graph, &self.parts, cameras, thinning, &self.options);
-        let parts = found.context("--margin")?.into_iter();
-        Ok(named::Margin {
-            of: if cameras.is_some() { "tracks" } else { "pairs" },
-            draws,
-            seed,
-            missing: MISSING,
-            components: parts
-                .map(|part| named::MarginOf {
-                    component: number(part.component),
-                    whole: part.whole,
-                    together: part
-                        .together
-                        .map(|sum| 100 * sum / (u64::from(draws) * part.images as u64)),
-                })
-                .collect(),
-        })
     }
 }
 

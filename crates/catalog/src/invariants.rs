@@ -1,9 +1,9 @@
 //! Invariants of small graphs.
 
-use super::canonical::canonical;
-use super::multigraph::{Multigraph, bits};
+use super::label::{automorphisms, neighbours};
+use viewcert::graph::Graph;
 
-/// What the catalog lists of a graph besides its verdict.
+/// What is counted of a graph besides its verdict.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Invariants {
     /// Degrees, falling.
@@ -17,68 +17,85 @@ pub struct Invariants {
 }
 
 impl Invariants {
-    /// The invariants of a simple graph. O(n m) and a canonical form.
-    pub fn new(graph: &Multigraph) -> Self {
-        let mut degrees: Vec<usize> = (0..graph.nodes()).map(|v| graph.degree(v)).collect();
+    /// The invariants of a graph; `None` if it has too many nodes for a label. O(n m), and as
+    /// [`greatest`](super::label::greatest).
+    pub fn new(graph: &Graph) -> Option<Self> {
+        let group_order = automorphisms(graph)?;
+        let around = &neighbours(graph)[..graph.nodes()];
+        let mut degrees: Vec<usize> = around.iter().map(|set| set.count_ones() as usize).collect();
         degrees.sort_unstable_by(|a, b| b.cmp(a));
-        let common = |(u, v, _)| (graph.neighbours(u) & graph.neighbours(v)).count_ones();
-        Self {
+        let common = |&(u, v): &(u32, u32)| (around[u as usize] & around[v as usize]).count_ones();
+        Some(Self {
             degrees,
-            girth: girth(graph),
-            group_order: canonical(graph).group_order,
-            triangles: graph.pairs().map(common).sum::<u32>() as usize / 3,
-        }
+            girth: graph
+                .edges()
+                .iter()
+                .filter_map(|&pair| cycle(around, pair))
+                .min(),
+            group_order,
+            triangles: graph.edges().iter().map(common).sum::<u32>() as usize / 3,
+        })
     }
 }
 
-/// The length of a shortest cycle: a shortest path between the ends of an edge without
-/// that edge, and the edge.
-fn girth(graph: &Multigraph) -> Option<usize> {
-    graph
-        .pairs()
-        .filter_map(|(u, v, _)| {
-            let mut without = *graph;
-            without.remove(u, v);
-            let (mut reached, mut new, mut length) = (1u16 << u, 1u16 << u, 1);
-            while new != 0 {
-                if reached >> v & 1 == 1 {
-                    return Some(length);
-                }
-                let next = bits(new).fold(0, |all, w| all | without.neighbours(w));
-                new = next & !reached;
-                reached |= new;
-                length += 1;
-            }
-            None
-        })
-        .min()
+/// The length of a shortest cycle with a pair: a shortest path between its ends without it, and the pair.
+fn cycle(around: &[u16], (u, v): (u32, u32)) -> Option<usize> {
+    let (mut reached, mut new, mut length) = (1u16 << u, 1u16 << u, 1);
+    while new != 0 {
+        if reached >> v & 1 == 1 {
+            return Some(length);
+        }
+        let of = |w: usize| match w == u as usize {
+            true => around[w] & !(1 << v),
+            false => around[w],
+        };
+        let next = (0..around.len())
+            .filter(|w| new >> w & 1 == 1)
+            .fold(0, |all, w| all | of(w));
+        new = next & !reached;
+        reached |= new;
+        length += 1;
+    }
+    None
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn of(nodes: u32, pairs: &[(u32, u32)]) -> Invariants {
+        Invariants::new(&Graph::new(nodes, pairs.iter().copied()).unwrap()).unwrap()
+    }
+
     #[test]
     fn of_known_graphs() {
-        let house = Multigraph::with_pairs(5, &[(0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (1, 4)]);
         let expected = Invariants {
             degrees: vec![3, 3, 2, 2, 2],
             girth: Some(3),
             group_order: 2,
             triangles: 1,
         };
-        assert_eq!(Invariants::new(&house), expected);
-        let bipartite =
-            Multigraph::with_pairs(5, &[(0, 2), (0, 3), (0, 4), (1, 2), (1, 3), (1, 4)]);
-        let found = Invariants::new(&bipartite);
+        assert_eq!(
+            of(5, &[(0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (1, 4)]),
+            expected
+        );
+        let found = of(5, &[(0, 2), (0, 3), (0, 4), (1, 2), (1, 3), (1, 4)]);
         assert_eq!(
             (found.girth, found.triangles, found.group_order),
             (Some(4), 0, 12)
         );
-        let path = Multigraph::with_pairs(3, &[(0, 1), (1, 2)]);
-        assert_eq!(Invariants::new(&path).girth, None);
+        assert_eq!(of(3, &[(0, 1), (1, 2)]).girth, None);
         let complete: Vec<_> = (0..5).flat_map(|v| (0..v).map(move |u| (u, v))).collect();
-        let found = Invariants::new(&Multigraph::with_pairs(5, &complete));
+        let found = of(5, &complete);
         assert_eq!((found.triangles, found.group_order), (10, 120));
+        // The Petersen graph: no two nodes can be exchanged by themselves.
+        let outer = (0..5).map(|v| (v, (v + 1) % 5));
+        let inner = (0..5).map(|v| (5 + v, 5 + (v + 2) % 5));
+        let petersen: Vec<_> = outer
+            .chain(inner)
+            .chain((0..5).map(|v| (v, v + 5)))
+            .collect();
+        let found = of(10, &petersen);
+        assert_eq!((found.girth, found.group_order), (Some(5), 120));
     }
 }

@@ -4,13 +4,15 @@
 //! graph6 line is the greatest is taken, and k is its place among the lines of all graphs on these nodes with
 //! so many pairs, the greatest first. So a label gives the graph back.
 //!
-//! The form of [`canonical`](super::canonical) would do as well, but what it is depends on the constants of a
-//! program, as that of nauty does; the greatest line is the greatest whoever looks for it.
+//! A canonical form as that of nauty would do as well, but what it is depends on the constants of a program; the
+//! greatest line is the greatest whoever looks for it.
 
-use super::multigraph::MAX_NODES;
 use std::fmt;
 use std::str::FromStr;
 use viewcert::Graph;
+
+/// The most nodes of a graph with a label.
+pub const MAX_NODES: usize = 16;
 
 /// The label of a graph.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -190,7 +192,8 @@ fn binomial(all: usize, size: usize) -> u128 {
     (1..=size.min(all - size) as u128).fold(1, |found, k| found * (all as u128 + 1 - k) / k)
 }
 
-fn neighbours(graph: &Graph) -> [u16; MAX_NODES] {
+/// The neighbours of each node, as bits.
+pub(crate) fn neighbours(graph: &Graph) -> [u16; MAX_NODES] {
     let mut neighbours = [0u16; MAX_NODES];
     for &(i, j) in graph.edges() {
         neighbours[i as usize] |= 1 << j;
@@ -206,18 +209,39 @@ fn neighbours(graph: &Graph) -> [u16; MAX_NODES] {
 /// neighbours besides each other, and can thus be exchanged, only the first is tried. Memory is that of the
 /// orders that agree, exponential at worst: 180 at most for the graphs of the catalog with 10 nodes.
 pub fn greatest(graph: &Graph) -> Option<Graph> {
+    let (pairs, _) = search(graph)?;
+    let greatest = Graph::new(graph.nodes() as u32, pairs);
+    Some(greatest.expect("pairs of different nodes below their number"))
+}
+
+/// The number of automorphisms of a graph: two orders that give the same line differ by one. `None` with more than
+/// [`MAX_NODES`] nodes.
+pub fn automorphisms(graph: &Graph) -> Option<u64> {
+    let (_, orders) = search(graph)?;
+    // In all orders of nodes that can be exchanged with each other.
+    let exchanged = twins(&neighbours(graph), graph.nodes()).into_iter();
+    Some(exchanged.fold(orders as u64, |all, twins| {
+        all * u64::from(twins.count_ones() + 1)
+    }))
+}
+
+/// For each node the smaller ones that can be exchanged with it.
+fn twins(neighbours: &[u16], nodes: usize) -> Vec<u16> {
+    let of = |v: usize| {
+        let same = |u: &usize| neighbours[v] & !(1 << u) == neighbours[*u] & !(1 << v);
+        (0..v).filter(same).fold(0, |all, u| all | 1 << u)
+    };
+    (0..nodes).map(of).collect()
+}
+
+/// The pairs of the greatest relabelling, and how many orders give it that keep nodes that can be exchanged in order.
+fn search(graph: &Graph) -> Option<(Vec<(u32, u32)>, usize)> {
     let nodes = graph.nodes();
     if nodes > MAX_NODES {
         return None;
     }
     let neighbours = neighbours(graph);
-    // The smaller ones that can be exchanged with a node.
-    let twins: Vec<u16> = (0..nodes)
-        .map(|v| {
-            let same = |u: &usize| neighbours[v] & !(1 << u) == neighbours[*u] & !(1 << v);
-            (0..v).filter(same).fold(0, |all, u| all | 1 << u)
-        })
-        .collect();
+    let twins = twins(&neighbours, nodes);
     let mut orders = vec![(0u16, [0u8; MAX_NODES])];
     let mut pairs = Vec::with_capacity(graph.edges().len());
     for column in 0..nodes {
@@ -245,8 +269,7 @@ pub fn greatest(graph: &Graph) -> Option<Graph> {
         pairs.extend(ends.map(|i| (i as u32, column as u32)));
         orders = next;
     }
-    let greatest = Graph::new(nodes as u32, pairs);
-    Some(greatest.expect("pairs of different nodes below their number"))
+    Some((pairs, orders.len()))
 }
 
 #[cfg(test)]

@@ -201,17 +201,12 @@ impl Summary {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Candidates, least_edges};
+    use crate::{candidates, least_edges};
     use viewcert::decide::{CountSolutions, Projective};
 
     fn entries(nodes: usize) -> Vec<Entry> {
-        let mut graphs = Vec::new();
-        Candidates::new(nodes, least_edges(nodes), false)
-            .unwrap()
-            .for_each(&mut |graph| {
-                graphs.push(graph);
-                true
-            });
+        let watch = viewcert::watch::Watch::default();
+        let graphs = candidates(nodes, least_edges(nodes), &watch).unwrap();
         decide_all(&graphs, &Options::default()).unwrap()
     }
 

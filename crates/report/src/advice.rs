@@ -4,12 +4,9 @@ use crate::noticed;
 use crate::shown::{SHOWN, rest};
 use std::io::{self, Write};
 use viewcert::wording::counted;
-use viewcert_advice::named::{
-    Advice, Enough, Explain, Export, Joint, Margin, Suggestion, SweepRow, Weak,
-};
+use viewcert_advice::named::{Advice, Enough, Explain, Export, Joint, Suggestion, Weak};
 
 /// Length of the longest bar of a plot.
-const BAR: usize = 40;
 
 /// Writes what was found.
 ///
@@ -33,12 +30,6 @@ pub fn write(out: &mut impl Write, advice: &Advice) -> io::Result<()> {
     }
     if let Some(found) = &advice.explain {
         explain(out, found, advice.of_tracks)?;
-    }
-    if let Some(found) = &advice.sweep {
-        sweep(out, found)?;
-    }
-    if let Some(found) = &advice.margin {
-        margin(out, found)?;
     }
     if let Some(found) = &advice.export {
         export(out, found)?;
@@ -377,61 +368,6 @@ fn explain_pairs(out: &mut impl Write, found: &Explain) -> io::Result<()> {
         )?;
     }
     rest(out, outside, "--json lists them")
-}
-
-fn sweep(out: &mut impl Write, rows: &[SweepRow]) -> io::Result<()> {
-    writeln!(
-        out,
-        "  sweep       inliers   pairs  images  connected  components  single pairs  largest"
-    )?;
-    let most = rows.iter().map(|row| row.largest).max().unwrap_or(0).max(1);
-    for row in rows {
-        let line = format!(
-            "              {:>7} {:>7} {:>7} {:>10} {:>11} {:>13} {:>8}  {}",
-            row.threshold,
-            row.pairs,
-            row.images,
-            row.connected,
-            row.components,
-            row.single_pairs,
-            row.largest,
-            "#".repeat((row.largest * BAR).div_ceil(most)),
-        );
-        writeln!(out, "{}", line.trim_end())?;
-    }
-    Ok(())
-}
-
-fn margin(out: &mut impl Write, found: &Margin) -> io::Result<()> {
-    let draws = found.draws;
-    let missing: Vec<String> = found
-        .missing
-        .iter()
-        .map(|share| format!("{share:>4} %"))
-        .collect();
-    writeln!(
-        out,
-        "  margin      {} left out:  {}",
-        found.of,
-        missing.join(" ")
-    )?;
-    for part in found.components.iter().take(SHOWN) {
-        let whole = part.whole.map(|count| format!("{count:>6}")).join(" ");
-        let together = part.together.map(|share| format!("{share:>4} %")).join(" ");
-        let number = part.component;
-        writeln!(
-            out,
-            "    component {number:>4} whole in   {whole}  of {draws}"
-        )?;
-        writeln!(out, "      images that stay together {together}")?;
-    }
-    rest(out, found.components.len(), "--json lists them")?;
-    writeln!(
-        out,
-        "    A random experiment (seed {}), not a proof: it shows how many {} can be missing, not \
-         whether those that are there are right.",
-        found.seed, found.of
-    )
 }
 
 fn export(out: &mut impl Write, found: &Export) -> io::Result<()> {

@@ -6,10 +6,10 @@ use serde::Serialize;
 use std::io::{self, Write};
 use viewcert::certificate::hex;
 use viewcert::here::Here;
+use viewcert_audit::at_cameras::{FloatClaim, decimals};
+use viewcert_audit::claims::Ruling;
+use viewcert_audit::enclosure::{Enclosure, Matrix};
 use viewcert_formats::NamedGraph;
-use viewcert_studies::audit::at_cameras::{FloatClaim, decimals};
-use viewcert_studies::audit::claims::Ruling;
-use viewcert_studies::enclosure::{Enclosure, Matrix};
 
 /// The exact side of one row, or of none.
 #[derive(Clone, Copy, Debug)]

@@ -97,7 +97,8 @@ impl<'a> GraphLine<'a> {
     }
 
     /// Where there is no verdict. O(n + m) for the hash.
-    pub(super) fn of(input: &'a NamedGraph) -> Self {
+    /// The same before it is decided.
+    pub fn of(input: &'a NamedGraph) -> Self {
         Self::with_hash(input, &viewcert::graph::sha256(&input.graph))
     }
 

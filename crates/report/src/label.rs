@@ -8,7 +8,6 @@ use std::io::{self, Write};
 use viewcert::graph::graph6;
 use viewcert_catalog::invariants::Invariants;
 use viewcert_catalog::label::{Label, greatest};
-use viewcert_catalog::multigraph::Multigraph;
 use viewcert_formats::NamedGraph;
 
 /// A graph with its label.
@@ -35,12 +34,11 @@ struct Line<'a> {
 impl<'a> LabelReport<'a> {
     /// The report; `None` if the graph has too many nodes for a label.
     pub fn new(input: &'a NamedGraph) -> Option<Self> {
-        let small = Multigraph::from_graph(&input.graph)?;
         Some(Self {
             input,
             label: Label::of(&input.graph)?,
             graph6: graph6::encode(&greatest(&input.graph)?),
-            invariants: Invariants::new(&small),
+            invariants: Invariants::new(&input.graph)?,
         })
     }
 

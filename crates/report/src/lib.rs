@@ -2,19 +2,11 @@
 
 pub mod advice;
 pub mod assumptions;
-#[cfg(feature = "studies")]
+#[cfg(feature = "audit")]
 pub mod at_cameras;
-#[cfg(feature = "studies")]
+#[cfg(feature = "audit")]
 pub mod audit;
-#[cfg(feature = "studies")]
-pub mod bars;
-#[cfg(feature = "studies")]
-pub mod comparison;
 mod condition;
-#[cfg(feature = "studies")]
-pub mod conditions;
-#[cfg(feature = "studies")]
-pub mod curves;
 pub mod database;
 pub mod force_layout;
 pub mod graph_picture;
@@ -37,7 +29,7 @@ pub mod page;
 mod part_names;
 pub mod priors;
 pub mod read;
-#[cfg(feature = "studies")]
+#[cfg(feature = "audit")]
 pub mod rulings;
 pub mod second_scene;
 pub mod sheet;

@@ -20,12 +20,11 @@ pub fn next(options: &ReadOptions, path: &Path, found: &Overview) -> Vec<Next> {
     };
     let advise = |graph: &str, what: &str, purpose| command("advise", graph, what, purpose);
     let decided = format!("{graph}{tracks}");
-    // How many tracks can be missing does not tell kept promises from broken ones
-    // (docs/reconstruction.md, 'Margin').
-    let few = "how many pairs can be missing before parts fall apart";
-    let margin = (!with_tracks).then(|| advise(&decided, " --margin", few));
+    // What tracks hang on does not tell kept promises from broken ones.
+    let few = "pairs without which parts fall apart";
+    let weak = (!with_tracks).then(|| advise(&decided, " --weak", few));
     if found.determined() {
-        return Vec::from_iter(margin);
+        return Vec::from_iter(weak);
     }
     let mut next = Vec::new();
     if found.facts().is_some_and(|facts| facts.pairs_used == 0) {
@@ -69,7 +68,7 @@ pub fn next(options: &ReadOptions, path: &Path, found: &Overview) -> Vec<Next> {
             "an image outside the largest part, and what it would need",
         ));
     }
-    next.extend(margin);
+    next.extend(weak);
     next
 }
 

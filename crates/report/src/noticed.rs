@@ -95,10 +95,9 @@ fn groups(out: &mut impl Write, found: &GroupsOf, of: &str) -> io::Result<()> {
 }
 
 fn redundant(out: &mut impl Write, found: &Redundant) -> io::Result<()> {
-    let lost = match (found.of, found.lost) {
-        (of, 2) => format!("two {of} are"),
-        ("cameras and points", _) => "camera or point is".to_owned(),
-        (of, _) => format!("{} is", of.trim_end_matches('s')),
+    let lost = match found.of {
+        "cameras and points" => "camera or point is".to_owned(),
+        of => format!("{} is", of.trim_end_matches('s')),
     };
     let broken = found.broken.len();
     let components = counted(found.stay + broken, "component");

@@ -6,8 +6,8 @@ use serde::Serialize;
 use std::io::{self, Write};
 use std::path::PathBuf;
 use viewcert::decide::Verdict;
+use viewcert_audit::claims::Ruling;
 use viewcert_formats::NamedGraph;
-use viewcert_studies::audit::claims::Ruling;
 
 /// The ruling on one row.
 #[derive(Clone, Debug)]

@@ -7,15 +7,14 @@ mod bar;
 pub mod exit;
 mod limits;
 pub mod outputs;
-mod printable;
 mod progress;
 mod session;
 
 pub use limits::{MemoryLimit, RunLimits, TimeLimit, default_memory_limit};
 pub use outputs::Outputs;
-pub use printable::printable;
 pub use progress::{Progress, Told};
 pub use session::Session;
+pub use viewcert_formats::printable;
 
 use std::sync::{Mutex, MutexGuard};
 

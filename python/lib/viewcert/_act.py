@@ -133,44 +133,6 @@ class Explanation:
 
 
 @dataclass(frozen=True)
-class Threshold:
-    """What a least number of inliers gives: how many pairs are used and nodes have one, the nodes
-    of the largest connected part, components of more than a pair, single pairs, nodes of the
-    largest component, and the answer."""
-
-    threshold: int
-    pairs: int
-    images: int
-    connected: int
-    components: int
-    single_pairs: int
-    largest: int
-    value: Value
-
-
-@dataclass(frozen=True)
-class Margin:
-    """How a component bears that pairs (or tracks) are missing, in a random experiment.
-
-    Attributes
-    ----------
-    component : int
-        Its place in `Verdict.components`.
-    missing : tuple of int
-        Percentages left out.
-    whole : tuple of int
-        How many draws left it whole, for each of `missing`.
-    together : tuple of int
-        What percentage of its nodes stayed in one component, on average, for each of `missing`.
-    """
-
-    component: int
-    missing: Tuple[int, ...]
-    whole: Tuple[int, ...]
-    together: Tuple[int, ...]
-
-
-@dataclass(frozen=True)
 class Export:
     """What was written: the folder, how many components have a folder in it, the nodes in several
     of these, how many are in none, and the commands that come next, for each component."""
@@ -184,7 +146,7 @@ class Export:
 
 @dataclass(frozen=True)
 class Break:
-    """A component that falls apart, without which pairs (of nodes) or nodes it does, and how strong
+    """A component that falls apart, without which pair (of nodes) or node it does, and how strong
     that is: ``'proof'`` or ``'error-bound'``."""
 
     component: int
@@ -307,17 +269,16 @@ def surplus(verdict: Any) -> Dict[Tuple[Node, Node], Dict[str, Any]]:
     return pairs
 
 
-def redundant(verdict: Any, lost: int = 1, of: Lost = "pairs") -> List[Break]:
-    """The components that do not stay one whatever is lost.
+def redundant(verdict: Any, of: Lost = "pairs") -> List[Break]:
+    """The components that do not stay one whichever pair, or image, is lost.
 
     Parameters
     ----------
     verdict : Verdict
         Or a graph, which is decided first.
-    lost : {1, 2}
-        How many are lost.
     of : {'pairs', 'images'}
-        What is lost.
+        What is lost. Of two losses ask about the rest without each pair:
+        ``any(viewcert.redundant([p for p in pairs if p != lost]) for lost in pairs)``.
 
     Returns
     -------
@@ -329,16 +290,15 @@ def redundant(verdict: Any, lost: int = 1, of: Lost = "pairs") -> List[Break]:
     --------
     >>> import itertools, viewcert
     >>> complete = list(itertools.combinations(range(5), 2))
-    >>> viewcert.redundant(complete, 2)
+    >>> viewcert.redundant(complete)
     []
-    >>> viewcert.redundant(complete[1:], 2)[0].without
-    ((0, 2), (0, 3))
+    >>> viewcert.redundant([(0, 1), (0, 2), (1, 2)])[0].without
+    ((0, 1),)
     """
     one_of("of", of, get_args(Lost))
-    lost = whole("lost", lost, 1, 2)
     verdict = _decided(verdict)
     by_text = verdict.graph._by_text()
-    what = str(lost) if of == "pairs" else f"images:{lost}"
+    what = "1" if of == "pairs" else "images:1"
     found = _asked(verdict, "redundant", redundant=what)
 
     def named(texts: Sequence[str]) -> Any:
@@ -476,52 +436,6 @@ def explain(verdict: Any, node: Node) -> Explanation:
         suggestions=tuple(_suggestions(found["suggestions"], by_text)),
         sees=tuple((part["component"] - 1, part["points"]) for part in found.get("sees", ())),
     )
-
-
-def sweep(verdict: Any, thresholds: Sequence[int]) -> List[Threshold]:
-    """Decides a graph again with other least numbers of inliers.
-
-    Parameters
-    ----------
-    verdict : Verdict
-        Of a graph of :func:`from_database`, or of a :class:`Graph` with `inliers`; or that graph.
-    thresholds : sequence of int
-        The least numbers.
-
-    Raises
-    ------
-    InputError
-        If the numbers of inliers are not known.
-    """
-    least = [whole("thresholds", threshold, 0, 2**32 - 1) for threshold in thresholds]
-    verdict = _decided(verdict)
-    if verdict.graph.cameras is None and verdict.graph.inliers is None:
-        raise InputError(
-            "sweep: the numbers of inliers of the pairs are not known; viewcert.from_database reads them, and "
-            "viewcert.Graph(graph, inliers='...') takes them from attributes of pairs"
-        )
-    rows = _asked(verdict, "sweep", sweep=least) if least else []
-    return [Threshold(value=row.pop("verdict"), **row) for row in rows]
-
-
-def margin(verdict: Any, draws: int = 10) -> List[Margin]:
-    """Leaves out pairs (of a camera-point graph: tracks) at random, several shares of them, and
-    says how often the largest components stay whole: an experiment, not a proof.
-
-    Parameters
-    ----------
-    verdict : Verdict
-        Or a graph, which is decided first.
-    draws : int
-        How often, for every share: 1 to 10,000.
-    """
-    draws = whole("draws", draws, 1, 10_000)
-    found = _asked(_decided(verdict), "margin", margin=draws)
-    missing = tuple(found["missing"])
-    return [
-        Margin(part["component"] - 1, missing, tuple(part["whole"]), tuple(part["together"]))
-        for part in found["components"]
-    ]
 
 
 def export(verdict: Any, folder: Path) -> Export:

@@ -59,7 +59,7 @@ class Graph(Generic[N]):
         ``source`` and ``target``, ``image1`` and ``image2``, ``img1`` and ``img2``, or ``i`` and ``j``.
     inliers : str, optional
         The attribute of pairs, or the column, that holds their numbers of inliers. Advice goes by
-        them (:func:`suggest`, :func:`sweep`), verdicts do not.
+        them (:func:`suggest`), verdicts do not.
     min_inliers : int
         Pairs with fewer inliers do not count; that is a note.
 

@@ -61,7 +61,7 @@ def limits(
     >>> steps = []
     >>> with viewcert.limits(time_limit=60, progress=lambda what, done, total: steps.append(what)):
     ...     verdict = viewcert.verify([(0, 1), (0, 2), (1, 2)])
-    ...     margins = viewcert.margin(verdict, draws=5)
+    ...     weak = viewcert.weak(verdict)
     """
     before = _AROUND.get()
     seconds, memory = bounds(time_limit, memory_limit)

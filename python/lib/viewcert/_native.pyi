@@ -7,7 +7,6 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
-from ._catalog import Shard
 from ._types import BaseLinesValue, Class, IntrinsicsValue, Place, Strength, Value
 from ._types import Decided as DecidedModel
 
@@ -16,7 +15,6 @@ __all__ = [
     "AtCameras",
     "Cameras",
     "Candidates",
-    "Census",
     "Claims",
     "Decided",
     "Graph",
@@ -27,9 +25,6 @@ __all__ = [
     "about_graph",
     "audit",
     "audit_at_cameras",
-    "catalog_merge",
-    "catalog_shard",
-    "census",
     "check",
     "check_all",
     "check_at_cameras",
@@ -38,7 +33,6 @@ __all__ = [
     "decide",
     "decide_all",
     "drawing",
-    "formulations",
     "graph_kept",
     "graph_of_integers",
     "graph_of_nodes",
@@ -46,7 +40,6 @@ __all__ = [
     "label_graph6",
     "lists",
     "models",
-    "of_conditions",
     "overview",
     "pairs_among",
     "read",
@@ -55,7 +48,6 @@ __all__ = [
     "run_verify",
     "same_graph",
     "singular_value",
-    "tolerances",
     "witness",
 ]
 
@@ -153,8 +145,6 @@ class Decided:
         weak: str | None = None,
         suggest: int | None = None,
         explain: str | None = None,
-        sweep: list[int] = ...,
-        margin: int | None = None,
         export: str | os.PathLike[str] | None = None,
         surplus: bool = False,
         redundant: str | None = None,
@@ -318,12 +308,10 @@ def check_at_cameras(
 class Candidates:
     def __new__(
         cls,
-        nodes: int | None = None,
+        nodes: int,
         *,
-        from_file: str | os.PathLike[str] | None = None,
         edges: int | None = None,
         necessary: bool = False,
-        minimal: bool = False,
         solutions: bool = False,
         prime: int | None = None,
         seed: int = 1,
@@ -331,26 +319,6 @@ class Candidates:
     def __iter__(self) -> Candidates: ...
     def __next__(self) -> tuple[list[str], bytes]: ...
 
-@final
-class Census:
-    @property
-    def name(self) -> str: ...
-    @property
-    def counts(self) -> dict[str, int]: ...
-    @property
-    def solutions(self) -> dict[str, int]: ...
-    @property
-    def digest(self) -> str | None: ...
-    @property
-    def listed(self) -> list[str] | None: ...
-    @property
-    def malformed(self) -> list[str]: ...
-    @property
-    def table(self) -> str: ...
-
-def census(
-    counted: dict[str, Any], *, progress: Callable[[str, int, int], object] | None = None
-) -> Census: ...
 @final
 class Archive:
     @property
@@ -385,22 +353,9 @@ def witness(
     decided: Decided, *, seed: int = 1, oriented: bool = False
 ) -> tuple[str | None, str | None, tuple[str, str]]: ...
 def models(decided: list[Decided]) -> tuple[str, str]: ...
-def of_conditions(graph: Graph) -> tuple[str, str]: ...
-def formulations(
-    graph: Graph,
-    *,
-    affine: bool = False,
-    prime: int | None = None,
-    bounds: tuple[int, int] | None = None,
-    seed: int = 1,
-    limit: int | None = None,
-) -> tuple[str, str, str]: ...
 def audit(
     decided: Decided, tolerance: float, method: str, draws: int, seed: int
 ) -> tuple[str, str]: ...
-def tolerances(
-    decided: list[Decided], tolerance: float, method: str, draws: int, seed: int
-) -> tuple[list[tuple[float, int, int]], tuple[int, int, int]]: ...
 @final
 class Claims:
     def __new__(cls, text: str, ignored: list[str]) -> Claims: ...
@@ -421,16 +376,3 @@ def singular_value(
 def audit_at_cameras(at: AtCameras, table: str) -> list[tuple[str, str]]: ...
 def run_verify(arguments: list[str]) -> int: ...
 def run_checker(arguments: list[str]) -> int: ...
-def catalog_shard(
-    share: Shard,
-    *,
-    prepare: bool = False,
-    progress: Callable[[str, int, int], object] | None = None,
-) -> list[str]: ...
-def catalog_merge(
-    folder: str | os.PathLike[str],
-    *,
-    recheck: str | None = None,
-    threads: int | None = None,
-    progress: Callable[[str, int, int], object] | None = None,
-) -> str: ...

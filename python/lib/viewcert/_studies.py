@@ -1,16 +1,14 @@
-"""What the literature is compared with: models, conditions, formulations, floating point, claims of others."""
+"""Models side by side, floating point beside the exact verdict, claims of others."""
 
 from __future__ import annotations
 
 import json
 import os
 from dataclasses import dataclass, field
-from typing import Any, Dict, Generic, Iterable, Iterator, List, Literal, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, Generic, Iterator, List, Literal, Mapping, Optional, Sequence, Tuple, Union
 
 from . import _native
-from ._act import _decided
-from ._all import verify_all
-from ._arguments import one_of, whole, whole_if
+from ._arguments import one_of, whole
 from ._errors import Error, InputError
 from ._graph import Graph, Path, as_graph
 from ._kept import Kept
@@ -18,7 +16,6 @@ from ._question import wanted
 from ._tables import json_of, rows_of
 from ._types import Decided, FloatMethod, N, RulingWord
 from ._verdict import Verdict, verify
-from ._words import in_python
 
 #: From the model that determines least to the one that determines most.
 _MODELS: Tuple[Decided, ...] = ("affine", "projective", "calibrated")
@@ -140,199 +137,6 @@ def models(graph: Any, *, seed: int = 1, **known: Any) -> Models[Any]:
 
 
 @dataclass(frozen=True)
-class Condition:
-    """A condition of the literature on one graph.
-
-    Attributes
-    ----------
-    name : str
-        What it is called.
-    source : str
-        Where it was published.
-    kind : {'necessary', 'sufficient'}
-        For what.
-    holds : bool, optional
-        Whether it does; None where it does not apply.
-    grounds : tuple of str
-        What shows that, in words.
-    """
-
-    name: str
-    source: str
-    kind: Literal["necessary", "sufficient"]
-    holds: Optional[bool]
-    grounds: Tuple[str, ...]
-
-
-@dataclass(frozen=True)
-class Conditions(_Said):
-    """The conditions of the literature on a graph, and what they say together.
-
-    Attributes
-    ----------
-    items : tuple of Condition
-        All of them.
-    refuted, solvable : bool
-        Whether a necessary one fails, or a sufficient one holds; if neither, they leave it open.
-    """
-
-    items: Tuple[Condition, ...]
-    refuted: bool
-    solvable: bool
-
-    def __iter__(self) -> Iterator[Condition]:
-        return iter(self.items)
-
-    def __len__(self) -> int:
-        return len(self.items)
-
-    def __repr__(self) -> str:
-        says = "not solvable" if self.refuted else "solvable" if self.solvable else "open"
-        return f"<viewcert.Conditions {says}: {len(self.items)} conditions>"
-
-
-def conditions(graph: Any) -> Conditions:
-    """What the necessary and sufficient conditions of the literature say of a graph.
-
-    Parameters
-    ----------
-    graph
-        As of :func:`verify`.
-
-    Examples
-    --------
-    >>> import networkx, viewcert
-    >>> viewcert.conditions(networkx.cycle_graph(5))
-    <viewcert.Conditions not solvable: 9 conditions>
-    """
-    said = _native.of_conditions(as_graph(graph)._native)
-    answers = {"yes": True, "no": False}
-    items = tuple(
-        Condition(one["name"], one["source"], one["kind"], answers.get(one["answer"]), tuple(one["witness"]))
-        for one in json.loads(said[0])["conditions"]
-    )
-    return Conditions(
-        said[0],
-        in_python(said[1]),
-        items,
-        refuted=any(one.kind == "necessary" and one.holds is False for one in items),
-        solvable=any(one.kind == "sufficient" and one.holds is True for one in items),
-    )
-
-
-@dataclass(frozen=True)
-class Formulation:
-    """A formulation of the literature on one graph.
-
-    Attributes
-    ----------
-    name, source : str
-        What it is called, and where it was published.
-    shapes : tuple
-        Rows and columns of its matrices; None of one whose size depends on a rank that was not computed.
-    rank, full, excess : int, optional
-        The rank that decides, that of a finite solvable graph, and how many dimensions of motions there are
-        beyond the trivial ones. None if a matrix is too large.
-    seconds : float, optional
-        How long that took.
-    """
-
-    name: str
-    source: str
-    shapes: Tuple[Optional[Tuple[int, int]], ...]
-    rank: Optional[int]
-    full: Optional[int]
-    excess: Optional[int]
-    seconds: Optional[float]
-
-
-@dataclass(frozen=True)
-class Comparison(_Said):
-    """The formulations of the literature on one graph.
-
-    Attributes
-    ----------
-    formulations : tuple of Formulation
-        All of them.
-    agree : bool, optional
-        Whether all that were computed say the same; None if fewer than two were.
-    excess : int, optional
-        How many dimensions of motions beyond the trivial ones all of them find.
-    picture : str
-        The sizes of the matrices, as SVG.
-    """
-
-    formulations: Tuple[Formulation, ...]
-    agree: Optional[bool]
-    excess: Optional[int]
-    picture: str = field(repr=False)
-
-    def __repr__(self) -> str:
-        says = "nothing compared" if self.agree is None else "all agree" if self.agree else "DISAGREE"
-        return f"<viewcert.Comparison {says}: {len(self.formulations)} formulations, excess {self.excess}>"
-
-
-def compare(
-    graph: Any,
-    *,
-    model: Literal["projective", "affine"] = "projective",
-    prime: Optional[int] = None,
-    rational: bool = False,
-    numerator: int = 9,
-    denominator: int = 4,
-    seed: int = 1,
-    limit: Optional[int] = None,
-) -> Comparison:
-    """Compares the formulations of the literature on a graph: sizes, ranks, time.
-
-    Parameters
-    ----------
-    graph
-        As of :func:`verify`.
-    model : {'projective', 'affine'}
-        Of which cameras.
-    prime, rational, numerator, denominator, seed
-        As of :func:`verify`: modulo a prime, or at cameras with small rational entries.
-    limit : int, optional
-        Matrices with more entries are not eliminated: 2^27, with `rational` 2^18.
-
-    Examples
-    --------
-    >>> import viewcert
-    >>> viewcert.compare([(0, 1), (0, 2), (1, 2)])
-    <viewcert.Comparison all agree: 6 formulations, excess 0>
-    """
-    one_of("model", model, ("projective", "affine"))
-    if rational and prime is not None:
-        raise InputError("prime: not with rational=True; leave out one of the two")
-    bounds = (whole("numerator", numerator, 1, 100), whole("denominator", denominator, 1, 12)) if rational else None
-    json_text, text, picture = _native.formulations(
-        as_graph(graph)._native,
-        affine=model == "affine",
-        prime=whole_if("prime", prime, 5, 2**62 - 1),
-        bounds=bounds,
-        seed=whole("seed", seed, 0, 2**64 - 1),
-        limit=whole_if("limit", limit, 0, 2**63 - 1),
-    )
-    said = json.loads(json_text)
-    formulations = tuple(
-        Formulation(
-            name=one["name"],
-            source=one["source"],
-            shapes=tuple(
-                None if matrix["rows"] is None else (matrix["rows"], matrix["columns"]) for matrix in one["matrices"]
-            ),
-            rank=one["rank"],
-            full=one["rank_full"],
-            excess=one["excess"],
-            seconds=one["seconds"],
-        )
-        for one in said["formulations"]
-    )
-    return Comparison(json_text, in_python(text), formulations, said["agree"], said["excess"], picture)
-
-
-@dataclass(frozen=True)
 class Audit(_Said):
     """Floating point beside the exact verdict.
 
@@ -437,57 +241,6 @@ def audit(
         misjudged=found["misjudged"],
         reason=found["reason"],
     )
-
-
-@dataclass(frozen=True)
-class Tolerance:
-    """How often a tolerance misjudges: how many draws of graphs that are not finite solvable it calls so, and the
-    other way round, out of how many."""
-
-    tolerance: float
-    false_solvable: int
-    not_solvable_draws: int
-    false_not_solvable: int
-    solvable_draws: int
-
-
-def audit_tolerances(
-    graphs: Iterable[Any],
-    *,
-    tolerance: float = _TOLERANCE,
-    method: FloatMethod = "auto",
-    draws: int = 1,
-    seed: int = 1,
-) -> List[Tolerance]:
-    """How often each tolerance misjudges some graphs: the experiment of ``verify audit --sweep-tolerance``.
-
-    Parameters
-    ----------
-    graphs : iterable
-        Of graphs as of :func:`verify`.
-    tolerance, method, draws, seed
-        As of :func:`audit`.
-
-    Returns
-    -------
-    list of Tolerance
-        Of `tolerance` first, and then those of the sweep.
-
-    Examples
-    --------
-    >>> import networkx, viewcert
-    >>> graphs = [networkx.cycle_graph(5), networkx.complete_graph(5)]
-    >>> first = viewcert.audit_tolerances(graphs, draws=3)[0]
-    >>> first.not_solvable_draws, first.solvable_draws
-    (3, 3)
-    """
-    one_of("method", method, ("auto", "dense", "gram", "sparse"))
-    draws = whole("draws", draws, 1, 2**32 - 1)
-    seed = whole("seed", seed, 0, 2**64 - 1)
-    verdicts = verify_all(graphs, model="projective", seed=seed)
-    native = [_found(verdict) for verdict in verdicts]
-    rows, (not_solvable, solvable, _) = _native.tolerances(native, tolerance, method, draws, seed)
-    return [Tolerance(at, wrong, not_solvable, missed, solvable) for at, wrong, missed in rows]
 
 
 @dataclass(frozen=True)

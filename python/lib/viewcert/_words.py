@@ -42,7 +42,7 @@ _PHRASES: Tuple[Tuple[str, Union[str, Callable[[Match[str]], str]]], ...] = (
     (r"--given\b", "`parts` and `displacements`"),
     (r"--no-rigs", "rigs=False"),
     (r"--(tracks|skip-loops|planar|rational)\b", lambda found: f"{_name(found[1])}=True"),
-    (r"--(weak|suggest|explain|sweep|margin|surplus|redundant|implied)=images", r"\1(of='images')"),
+    (r"--(weak|suggest|explain|surplus|redundant|implied)=images", r"\1(of='images')"),
     (r"(?<![\w-])--([a-z][a-z0-9-]*)", lambda found: _name(found[1])),
 )
 

@@ -4,7 +4,6 @@
 mod losses;
 mod named;
 mod redundant;
-mod robust;
 mod surplus;
 #[cfg(test)]
 mod tests;

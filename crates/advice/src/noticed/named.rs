@@ -77,7 +77,7 @@ pub struct Broken {
     /// The component.
     pub component: usize,
     /// Without these: each a pair of images, or an image.
-    pub without: Vec<Vec<String>>,
+    pub without: [Vec<String>; 1],
     /// How strong that is: `proof` or `error-bound`.
     pub strength: &'static str,
 }
@@ -168,24 +168,24 @@ impl Task<'_> {
     pub(crate) fn redundant(&self, lost: Lost) -> Result<Redundant> {
         let graph = &self.input.graph;
         let found = redundant(graph, &self.parts, lost, &self.options).context("--redundant")?;
-        let (of, lost) = match (lost, self.input.cameras) {
-            (Lost::Pairs(lost), None) => ("pairs", lost),
-            (Lost::Pairs(lost), Some(_)) => ("observations", lost),
-            (Lost::Images(lost), None) => ("images", lost),
-            (Lost::Images(lost), Some(_)) => ("cameras and points", lost),
+        let of = match (lost, self.input.cameras) {
+            (Lost::Pair, None) => "pairs",
+            (Lost::Pair, Some(_)) => "observations",
+            (Lost::Image, None) => "images",
+            (Lost::Image, Some(_)) => "cameras and points",
         };
         let broken = found.into_iter().map(|one| {
             let named = |nodes: Vec<u32>| nodes.into_iter().map(|v| self.names.of(v)).collect();
             Broken {
                 component: number(one.component),
-                without: one.without.into_iter().map(named).collect(),
+                without: [named(one.without)],
                 strength: one.strength.name(),
             }
         });
         let broken: Vec<Broken> = broken.collect();
         Ok(Redundant {
             of,
-            lost,
+            lost: 1,
             stay: self.parts.parts.len() - broken.len(),
             broken,
         })

@@ -170,6 +170,39 @@ pub fn jacobian<R: Ring>(
     rows
 }
 
+/// The pair that fixes the projective frame: of the edges at a node of highest degree the
+/// one whose other end has the highest degree; the first node, and then the first edge,
+/// among equals. 0 for a graph without edges.
+pub fn reference(graph: &Graph) -> usize {
+    let mut degree = vec![0usize; graph.nodes()];
+    for &(i, j) in graph.edges() {
+        degree[i as usize] += 1;
+        degree[j as usize] += 1;
+    }
+    let top = degree.iter().copied().max().unwrap_or(0);
+    let Some(first) = degree.iter().position(|&d| d == top) else {
+        return 0;
+    };
+    let other = |&(i, j): &(u32, u32)| match (i as usize == first, j as usize == first) {
+        (true, _) => Some(degree[j as usize]),
+        (_, true) => Some(degree[i as usize]),
+        _ => None,
+    };
+    let mut best = (0, 0);
+    for (e, edge) in graph.edges().iter().enumerate() {
+        if let Some(degree) = other(edge).filter(|&degree| degree > best.0) {
+            best = (degree, e);
+        }
+    }
+    best.1
+}
+
+/// Rows and columns of the augmented Jacobian.
+pub fn augmented_size(graph: &Graph) -> (usize, usize) {
+    let nodes = graph.nodes();
+    (10 * graph.edges().len() + nodes + 15, 12 * nodes)
+}
+
 /// The rows of the paper's section 4.1 that remove the trivial motions; below J_P they
 /// make J, of 10m + n + 15 rows, with rank J = rank J_P + n + 15 at generic cameras.
 ///
@@ -230,6 +263,13 @@ mod tests {
     use crate::linalg::{bareiss, textbook};
     use crate::watch::unwatched;
     use proptest::prelude::*;
+
+    #[test]
+    fn the_reference_joins_nodes_of_highest_degree() {
+        // Node 3 has degree 4; of its neighbours 4 has degree 3, the others 1 or 2.
+        let graph = graph(6, &[(0, 3), (1, 3), (2, 3), (3, 4), (2, 4), (4, 5)]);
+        assert_eq!(graph.edges()[reference(&graph)], (3, 4));
+    }
 
     fn graph(nodes: u32, pairs: &[(u32, u32)]) -> Graph {
         Graph::from_pairs(nodes, pairs.to_vec()).unwrap().0

@@ -1,0 +1,45 @@
+//! `viewcert-lab conditions GRAPH...`: what the literature's conditions say.
+
+use crate::report::conditions as report;
+use anyhow::Result;
+use clap::Args;
+use std::io::BufWriter;
+use std::path::PathBuf;
+use viewcert_cli::InputArguments;
+use viewcert_formats::NamedGraph;
+use viewcert_lab_studies::conditions;
+use viewcert_session::Session;
+use viewcert_session::exit::{GOOD, NOT};
+
+/// Options of the conditions.
+#[derive(Args)]
+pub struct ConditionArguments {
+    /// Graphs: edge lists, graph6 and sparse6 (a graph a line), MatrixMarket and MATLAB 5
+    /// matrices, NumPy, GraphML, GML and more, also compressed; `-` is standard input.
+    #[arg(required = true, value_name = "GRAPH")]
+    graphs: Vec<PathBuf>,
+    #[command(flatten)]
+    input: InputArguments,
+    /// Print one JSON object a graph.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Decides the conditions on every graph in turn; a bad one does not stop the others.
+pub fn run(session: &Session, arguments: &ConditionArguments) -> Result<u8> {
+    let mut out = BufWriter::new(std::io::stdout().lock());
+    let each = |out: &mut _, input: &NamedGraph, _| {
+        let found = conditions::decide(&input.graph);
+        if arguments.json {
+            report::json(out, input, &found)?;
+        } else {
+            report::text(out, input, &found)?;
+        }
+        let refuted = conditions::refuted(&found);
+        Ok(if refuted { NOT } else { GOOD })
+    };
+    let code = arguments
+        .input
+        .for_each(session, &arguments.graphs, &|_| None, &mut out, each)?;
+    Ok(code)
+}

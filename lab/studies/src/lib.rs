@@ -1,0 +1,9 @@
+//! Studies beside the verifier: formulations of the literature side by side, the float audit,
+//! necessary and sufficient conditions.
+
+pub mod affine_audit;
+pub mod conditions;
+pub mod formulation;
+pub mod paper_components;
+pub mod published;
+pub mod study;
