@@ -61,8 +61,9 @@ step "the tutorials as notebooks, run"
 step "examples"
 (
     cd "$out"
-    "$python" "$root/python/examples/colmap_pipeline.py" | tee pipeline.txt
-    [ "$(grep -c 'images; their tracks determine' pipeline.txt)" = 2 ]
+    "$python" "$root/python/examples/colmap_pipeline.py" pipeline | tee pipeline.txt
+    [ "$(grep -c '6 of 6 images (solvable)' pipeline.txt)" = 2 ]
+    [ -f pipeline/sparse/001/0/images.bin ]
     MPLBACKEND=agg "$python" "$root/python/examples/random_graphs.py" 20 plot.svg
     grep -q '</svg>' plot.svg
     # The rule of thumb is wrong: the audit says so.

@@ -11,7 +11,8 @@ use viewcert_advice::Request;
 /// What to export, and where to.
 #[derive(Args)]
 pub(super) struct ExportArguments {
-    /// The graph: a COLMAP database, or any other input of `verify`.
+    /// The graph: a COLMAP database, which goes by its tracks, as mappers do, unless --model names one of
+    /// pairs; or any other input of `verify`.
     graph: PathBuf,
     /// The folder for the components: lists of images and pairs for COLMAP, tables, commands. It holds
     /// nothing else.
@@ -29,7 +30,7 @@ impl ExportArguments {
     /// # Errors
     /// By name, what does not go together.
     pub(super) fn plan(&self) -> Result<Plan> {
-        let mut plan = self.question.plan(std::slice::from_ref(&self.graph))?;
+        let mut plan = self.question.plan_for_mappers(&self.graph)?;
         plan.given = self.given.path().map(Into::into);
         plan.request = Request {
             export: Some(self.folder.clone()),

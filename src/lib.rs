@@ -1,7 +1,7 @@
 //! `verify`: arguments in, reports out; no mathematics. One file a command.
 //!
 //! [`main`] is the program. What a command finds out from several files is there for others too:
-//! [`OverviewAsked`], [`ListsAsked`], [`check_archive`].
+//! [`OverviewAsked`], [`ListsAsked`], [`MergeAsked`], [`check_archive`].
 
 mod advise;
 #[cfg(feature = "audit")]
@@ -36,6 +36,7 @@ pub use check::{Archive, News, check_archive};
 pub use input::InputArguments;
 pub use limits::LimitArguments;
 pub use lists::Asked as ListsAsked;
+pub use merge::Asked as MergeAsked;
 pub use overview::Asked as OverviewAsked;
 
 use anyhow::{Result, bail};

@@ -6,8 +6,9 @@ use clap::Args;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use viewcert::decide::Options;
-use viewcert_advice::merge;
-use viewcert_formats::{Model, read_graphs};
+use viewcert_advice::merge::{self, Two};
+use viewcert_formats::colmap::FeatureTracks;
+use viewcert_formats::{Model, NamedGraph, ReadOptions, open_database, read_graphs};
 use viewcert_report::merge::MergeReport;
 use viewcert_session::Session;
 use viewcert_session::outputs;
@@ -15,7 +16,7 @@ use viewcert_session::outputs;
 /// Two models, and what they come from.
 #[derive(Args)]
 pub(super) struct MergeArguments {
-    /// The folder of a COLMAP model. Each model is taken for right in itself; nothing is written.
+    /// The folder of a COLMAP model. Nothing is written.
     #[arg(value_name = "MODEL")]
     one: PathBuf,
     /// The folder of the other.
@@ -30,52 +31,97 @@ pub(super) struct MergeArguments {
     json: bool,
 }
 
+/// What is asked of two models, whoever asks.
+pub struct Asked<'a> {
+    /// The folders of the models.
+    pub models: [&'a Path; 2],
+    /// Their database, or another file of tracks.
+    pub database: Option<&'a Path>,
+    /// How its tracks are read.
+    pub options: ReadOptions,
+}
+
+impl Asked<'_> {
+    /// Reads everything, decides what is between the models, and calls `say` with what was found.
+    ///
+    /// # Errors
+    /// If something cannot be read or decided; those of `say`.
+    pub fn of<T>(
+        &self,
+        session: &Session,
+        say: impl FnOnce(&MergeReport<'_>) -> Result<T>,
+    ) -> Result<T> {
+        let start = Instant::now();
+        let [one, other] = [
+            read(session, self.models[0])?,
+            read(session, self.models[1])?,
+        ];
+        let two = Two::new([(self.models[0], &one), (self.models[1], &other)])?;
+        let mut tracks = self
+            .database
+            .map(|path| self.tracks(session, path))
+            .transpose()?;
+        let (found, verdict) = match &mut tracks {
+            None => (two.merge(), None),
+            Some((input, features)) => {
+                let (seed, watch) = (Options::default().seed, session.shown_watch());
+                let found = merge::of_tracks(&two, input, features, seed, &watch);
+                session.hide();
+                let (found, verdict) = found.with_context(|| input.name.clone())?;
+                (found, Some(verdict))
+            }
+        };
+        let tracks = tracks.as_ref().map(|(input, _)| input);
+        say(&MergeReport {
+            models: self.models.map(|path| path.display().to_string()),
+            tracks: tracks.zip(verdict.as_ref()),
+            merge: &found,
+            time: start.elapsed(),
+        })
+    }
+
+    /// The tracks, and of a database those of every feature.
+    fn tracks(&self, session: &Session, path: &Path) -> Result<(NamedGraph, FeatureTracks)> {
+        session.reading(path);
+        let found = match open_database(path, &self.options) {
+            Some(database) => {
+                let database = database?;
+                let graph = database.tracks(self.options.tracks.unwrap_or_default())?;
+                let features = database.feature_tracks()?;
+                database.finish()?;
+                (graph, features)
+            }
+            None => {
+                let graph = read_graphs(path, &self.options).next();
+                let graph = graph.with_context(|| format!("{}: no graph", path.display()))??;
+                (graph, FeatureTracks::default())
+            }
+        };
+        session.hide();
+        Ok(found)
+    }
+}
+
 /// Reads both models, decides what is between them, and reports.
 pub(super) fn run(session: &Session, arguments: &MergeArguments) -> Result<u8> {
-    let start = Instant::now();
-    let models = [
-        read(session, &arguments.one)?,
-        read(session, &arguments.other)?,
-    ];
-    let both = models.each_ref();
-    let seed = Options::default().seed;
-    let mut tracks = match &arguments.database {
-        None => {
-            ensure!(
-                !arguments.input.says_anything(),
-                "options say how a database is read, and none is named; leave them out, or name the \
-                 database after both models"
-            );
-            None
-        }
-        Some(path) => {
-            session.reading(path);
-            let input = read_graphs(path, &arguments.input.of_tracks()).next();
-            session.hide();
-            Some(input.with_context(|| format!("{}: no graph", path.display()))??)
-        }
+    ensure!(
+        arguments.database.is_some() || !arguments.input.says_anything(),
+        "options say how a database is read, and none is named; leave them out, or name the database after \
+         both models"
+    );
+    let asked = Asked {
+        models: [&arguments.one, &arguments.other],
+        database: arguments.database.as_deref(),
+        options: arguments.input.of_tracks(),
     };
-    let (found, verdict) = match &mut tracks {
-        None => (merge::of_models(both), None),
-        Some(input) => {
-            let found = merge::of_tracks(both, input, seed, &session.shown_watch());
-            session.hide();
-            let (found, verdict) = found.with_context(|| input.name.clone())?;
-            (found, Some(verdict))
-        }
-    };
-    let report = MergeReport {
-        models: [&arguments.one, &arguments.other].map(|path| path.display().to_string()),
-        tracks: tracks.as_ref().zip(verdict.as_ref()),
-        merge: &found,
-        time: start.elapsed(),
-    };
-    outputs::answer(
-        arguments.json,
-        found.determined,
-        |out| report.write_json(out),
-        |out| report.write(out),
-    )
+    asked.of(session, |report| {
+        outputs::answer(
+            arguments.json,
+            report.merge.is_good(),
+            |out| report.write_json(out),
+            |out| report.write(out),
+        )
+    })
 }
 
 fn read(session: &Session, path: &Path) -> Result<Model> {

@@ -290,11 +290,7 @@ fn overview(
         false => request.advise(outputs, input, verdict, seed, shapes, watch),
     };
     session.hide();
-    let mut advice = advice.with_context(|| input.name.clone())?;
-    // What was matched in vain is no suggestion.
-    if let Some(suggestions) = &mut advice.suggestions {
-        suggestions.retain(|one| !one.was_in_vain());
-    }
+    let advice = advice.with_context(|| input.name.clone())?;
     let of_pairs = source.pairs.as_ref().unwrap_or(input);
     let of_tracks = tracks.as_ref().map(|(input, verdict)| (*input, verdict));
     let frames = input.frames.as_ref();

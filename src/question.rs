@@ -4,9 +4,9 @@ use super::input::InputArguments;
 use super::plan::{Form, Plan};
 use anyhow::Result;
 use clap::{Args, ValueEnum};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use viewcert::geometry::model::Model;
-use viewcert_formats::ReadOptions;
+use viewcert_formats::colmap::is_database;
 
 /// The graphs.
 pub(super) const GRAPHS: &str = "Graphs, in about any file that holds one: edge lists, graph6, matrices, \
@@ -55,26 +55,36 @@ impl QuestionArguments {
     /// # Errors
     /// An option that says how tracks are read, without tracks.
     pub(super) fn plan(&self, graphs: &[PathBuf]) -> Result<Plan> {
+        self.plan_by(graphs, self.tracks)
+    }
+
+    /// The plan for a command that leads on to mappers, which go by tracks: so does this with a database,
+    /// unless a model of pairs is named.
+    ///
+    /// # Errors
+    /// As of [`plan`](Self::plan).
+    pub(super) fn plan_for_mappers(&self, graph: &Path) -> Result<Plan> {
+        let by_tracks = self.tracks || self.model.is_none() && is_database(graph);
+        self.plan_by(&[graph.to_owned()], by_tracks)
+    }
+
+    fn plan_by(&self, graphs: &[PathBuf], tracks: bool) -> Result<Plan> {
         let model = match self.model {
             Some(ModelName::Calibrated | ModelName::Focal) => Model::Calibrated,
             Some(ModelName::Affine) => Model::Affine,
-            None if self.tracks => Model::Calibrated,
+            None if tracks => Model::Calibrated,
             Some(ModelName::Projective) | None => Model::Projective,
         };
-        let mut plan = Plan::new(graphs, self.read_options()?, model, self.seed);
+        let read = match tracks {
+            true => self.input.of_tracks(),
+            false => self.input.of_pairs()?,
+        };
+        let mut plan = Plan::new(graphs, read, model, self.seed);
         plan.asked.focal = self.model == Some(ModelName::Focal);
         plan.list_components = self.components;
         if self.json {
             plan.form = Form::Json;
         }
         Ok(plan)
-    }
-
-    fn read_options(&self) -> Result<ReadOptions> {
-        if self.tracks {
-            Ok(self.input.of_tracks())
-        } else {
-            self.input.of_pairs()
-        }
     }
 }

@@ -1,8 +1,9 @@
 //! What to do about a verdict, through the real binary: joints, weak pairs, suggestions, exports.
 
-use crate::common::{Run, cycle, verify, verify_with};
+use crate::common::{Run, cycle, data, verify, verify_with};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
+use std::fs;
 use std::path::Path;
 
 /// All pairs of some names, a line each.
@@ -142,7 +143,10 @@ fn nothing_to_join_and_nothing_to_fall_apart() {
     );
     let said = text("a b\nb c\n", &["advise", "--weak", "--suggest"]);
     assert!(said.contains("weak        nothing to fall apart"), "{said}");
-    assert!(said.contains("suggested   1 (proved"), "{said}");
+    assert!(
+        said.contains("suggested   1 (if these images really overlap"),
+        "{said}"
+    );
 }
 
 /// What is suggested is matched, and decided.
@@ -519,4 +523,220 @@ fn nothing_of_the_same_run_is_replaced() {
         "which would be replaced; name another folder",
     );
     assert_eq!(read(Path::new(&list)), before);
+}
+
+/// A copy of a sequence in which neighbours and the images after them were matched, without the pairs
+/// between two halves; and what the whole has of a pair that is matched.
+struct Cut {
+    folder: tempfile::TempDir,
+    database: rusqlite::Connection,
+    names: Vec<String>,
+}
+
+impl Cut {
+    fn new(source: &Path, at: usize) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("cut.db");
+        fs::write(&path, fs::read(source).unwrap()).unwrap();
+        let database = rusqlite::Connection::open(&path).unwrap();
+        let attach = "attach ? as uncut";
+        let uncut = format!("file:{}?mode=ro&immutable=1", source.display());
+        database.execute(attach, [uncut]).unwrap();
+        // Images are numbered from 1 in the order of their names.
+        let cross = format!(
+            "delete from main.two_view_geometries where pair_id / 2147483647 <= {at} and pair_id % 2147483647 > {at}"
+        );
+        assert!(database.execute(&cross, []).unwrap() > 0);
+        let names = {
+            let mut images = database
+                .prepare("select name from images order by image_id")
+                .unwrap();
+            let names = images.query_map([], |row| row.get(0)).unwrap();
+            names.map(Result::unwrap).collect()
+        };
+        Self {
+            folder,
+            database,
+            names,
+        }
+    }
+
+    fn path(&self) -> String {
+        self.folder
+            .path()
+            .join("cut.db")
+            .to_str()
+            .unwrap()
+            .to_owned()
+    }
+
+    /// Matches two images: what the whole has of them, or nothing.
+    fn match_pair(&self, pair: [usize; 2]) {
+        let number = 2_147_483_647 * (pair[0] + 1) + pair[1] + 1;
+        let found = format!(
+            "insert or replace into main.two_view_geometries select * from uncut.two_view_geometries where pair_id = {number}"
+        );
+        self.database.execute(&found, []).unwrap();
+        let tried = format!(
+            "insert or ignore into main.matches (pair_id, rows, cols) values ({number}, 0, 2)"
+        );
+        self.database.execute(&tried, []).unwrap();
+    }
+
+    /// The pairs of suggestions, in order.
+    fn suggested(&self, line: &Value) -> Vec<[usize; 2]> {
+        let place = |name: &Value| self.names.iter().position(|own| own == name).unwrap();
+        let all = line["suggestions"].as_array().unwrap().iter();
+        let pairs = all.flat_map(|one| one["pairs"].as_array().unwrap());
+        let pairs = pairs.map(|pair| [place(&pair[0]), place(&pair[1])]);
+        pairs.map(|[a, b]| [a.min(b), a.max(b)]).collect()
+    }
+}
+
+#[test]
+fn a_cut_sequence_is_mended_by_neighbours() {
+    let Some(data) = data() else {
+        return;
+    };
+    let source = data.join("turn4/photos/street_seq2.db");
+    for at in 2..18 {
+        let cut = Cut::new(&source, at);
+        let mut tried: Vec<[usize; 2]> = Vec::new();
+        loop {
+            let run = verify(&["advise", "--model", "calibrated", "--json", &cut.path()]);
+            let line = &run.json()[0];
+            let mut named = cut.suggested(line).into_iter();
+            if run.code == 0 {
+                break;
+            }
+            if tried.is_empty() {
+                let why = &line["suggestions"][0]["why"][0];
+                assert_eq!(why, "next to each other by name", "{line}");
+            }
+            let next = named.find(|pair| !tried.contains(pair));
+            let next = next.unwrap_or_else(|| panic!("cut at {at}: {tried:?}: {line}"));
+            cut.match_pair(next);
+            tried.push(next);
+            assert!(tried.len() <= 4, "cut at {at}: {tried:?}");
+        }
+        assert_eq!(tried[0], [at - 1, at], "the two images at the cut");
+    }
+}
+
+#[test]
+fn what_was_matched_in_vain_is_not_named_again() {
+    let Some(data) = data() else {
+        return;
+    };
+    // Every pair of the last image was matched, and none gave enough.
+    let banana = data.join("colmap/photos_banana.db");
+    let words = ["advise", "--tracks", banana.to_str().unwrap()];
+    let found = verify(&[&words[..], &["--json"]].concat());
+    let line = &found.json()[0];
+    assert_eq!(line["suggestions"], json!([]), "{line}");
+    assert_eq!(line["photograph"]["between"][1], "DSC_0434.JPG");
+    assert_eq!(line["photograph"]["groups"][1], json!(["DSC_0434.JPG"]));
+    assert_eq!(
+        line["photograph"]["groups"][0].as_array().unwrap().len(),
+        15
+    );
+    let said = verify(&words).out;
+    for words in [
+        "suggested   none found",
+        "gave too little",
+        "take one between DSC_0423.JPG to DSC_0438.JPG (15 images) and DSC_0434.JPG",
+    ] {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+    // Of a cut that was tried in vain throughout, the two halves.
+    let cut = Cut::new(&data.join("turn4/photos/street_seq2.db"), 9);
+    for (a, b) in (0..9).flat_map(|a| (9..19).map(move |b| (a, b))) {
+        let number = 2_147_483_647 * (a + 1) + b + 1i64;
+        let vain = "insert into matches (pair_id, rows, cols) values (?, 0, 2)";
+        cut.database.execute(vain, [number]).unwrap();
+    }
+    for question in [&["--tracks"][..], &["--model", "calibrated"], &[]] {
+        let path = cut.path();
+        let words = [&["advise", "--json", &path][..], question].concat();
+        let line = &verify(&words).json()[0];
+        assert_eq!(line["suggestions"], json!([]), "{question:?}");
+        let photograph = &line["photograph"];
+        assert_eq!(
+            photograph["between"],
+            json!(["0008.jpg", "0009.jpg"]),
+            "{question:?}"
+        );
+        let sizes = [0, 1].map(|k| photograph["groups"][k].as_array().unwrap().len());
+        assert_eq!(sizes, [9, 10], "{question:?}");
+    }
+}
+
+/// What a suggestion proves holds under a condition, which stands wherever the word does.
+#[test]
+fn no_suggestion_is_called_proved_without_its_condition() {
+    let Some(colmap) = data().map(|data| data.join("colmap")) else {
+        return;
+    };
+    let mut seen = 0;
+    for name in [
+        "clusters_two_edges.db",
+        "suggest_stuck.db",
+        "photos_banana.db",
+    ] {
+        let path = colmap.join(name);
+        let path = path.to_str().unwrap();
+        for words in [
+            &["advise", path][..],
+            &["advise", "--tracks", path],
+            &["overview", path],
+        ] {
+            let said = verify(words).out.replace("\n             ", "");
+            let lines = said
+                .lines()
+                .filter(|line| line.starts_with("  suggested") && line.contains("proved"));
+            for line in lines {
+                assert!(
+                    line.contains("if the") && line.contains("really overlap"),
+                    "{line}"
+                );
+                seen += 1;
+            }
+        }
+    }
+    assert!(seen > 2, "{seen}");
+}
+
+/// Mappers work with tracks: where pairs fall apart that tracks hold together, lists by pairs would cut
+/// what a mapper makes of the whole.
+#[test]
+fn a_database_is_exported_by_its_tracks() {
+    let Some(colmap) = data().map(|data| data.join("colmap")) else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let lists = |words: &[&str]| {
+        let to = folder.path().join("parts");
+        let run = verify(&[&["export"][..], words, &[to.to_str().unwrap()]].concat());
+        assert!(run.code < 2, "{}", run.err);
+        let parts = fs::read_dir(to.join("components")).unwrap();
+        let mut lists: Vec<String> = parts
+            .map(|part| fs::read_to_string(part.unwrap().path().join("images.txt")).unwrap())
+            .collect();
+        lists.sort();
+        lists
+    };
+    let mut cut = 0;
+    for name in [
+        "clusters_one_edge_tracks.db",
+        "suggest_stuck.db",
+        "photos_banana.db",
+        "photos_lund.db",
+    ] {
+        let path = colmap.join(name);
+        let path = path.to_str().unwrap();
+        let ours = lists(&[path]);
+        assert_eq!(ours, lists(&["--tracks", path]), "{name}");
+        cut += usize::from(lists(&["--model", "projective", path]).len() > ours.len());
+    }
+    assert!(cut > 1, "{cut}");
 }

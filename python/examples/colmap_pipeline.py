@@ -1,9 +1,10 @@
-"""A pipeline with pycolmap that asks before it maps: what do the verified pairs determine?
+"""A pipeline with pycolmap that asks before it maps: what do the tracks of the matches determine?
 
-    python colmap_pipeline.py [DATABASE [IMAGES]]
+    python colmap_pipeline.py OUTPUT [DATABASE [IMAGES]]
 
-Each certified component is reconstructed by itself, since nothing ties them together. Without
-arguments the database is made up: twelve images, of which six and six are tied by one pair.
+Mappers work with tracks, so the parts are those of the tracks. Each certified part is reconstructed by itself, and
+OUTPUT holds its models, the lists of its images and the certificate. Without a database one is made up: twelve
+images, of which six and six share a single pair.
 """
 
 from __future__ import annotations
@@ -11,7 +12,6 @@ from __future__ import annotations
 import pathlib
 import sqlite3
 import sys
-import tempfile
 
 import pycolmap
 import viewcert
@@ -38,44 +38,36 @@ def made_up(folder: pathlib.Path) -> pathlib.Path:
 
 
 def main(database: pathlib.Path, images: pathlib.Path, folder: pathlib.Path) -> None:
-    # Before mapping: which images do the pairs determine together?
-    graph = viewcert.from_database(database)
-    verdict = viewcert.verify(graph)
+    # Before mapping: which images do the tracks determine together?
+    tracks = viewcert.tracks_from_database(database)
+    verdict = viewcert.verify(tracks)
     print(verdict.report())
     verdict.save(folder / "certificate.json")
-    viewcert.check(folder / "certificate.json", graph)
+    viewcert.check(folder / "certificate.json", tracks)
 
-    # What would join them?
-    for one in viewcert.suggest(verdict, 3):
-        print("match", *(f"{a} {b}" for a, b in one.pairs), f"to add {one.gain} images")
-
-    # Every component that is more than a pair, by itself. The mapper wants the images for colours.
-    viewcert.export(verdict, folder / "components")
+    # A list of images for every part that is more than one camera.
+    exported = viewcert.export(verdict, folder / "parts")
+    print(f"{exported.components} parts, {exported.outside} images in none of them")
     has_images = images.is_dir()
-    images.mkdir(exist_ok=True)
-    for number, component in enumerate(verdict.components):
-        if len(component) < 3:
-            continue
+    images.mkdir(exist_ok=True)  # the mapper wants the images for colours
+    for listed in sorted((folder / "parts/components").glob("*/images.txt")):
+        names = listed.read_text(encoding="utf-8").splitlines()
         options = pycolmap.IncrementalPipelineOptions()
-        options.image_names = sorted(map(str, component))
+        options.image_names = names
         options.extract_colors = has_images
-        out = folder / f"sparse/{number}"
-        out.mkdir(parents=True)
-        models = pycolmap.incremental_mapping(database, images, out, options)
-        for model in models.values():
-            # After mapping: do the tracks hold the cameras together?
-            tracks = viewcert.verify(viewcert.tracks_from_reconstruction(model))
-            largest = len(tracks.components[0])
-            print(
-                f"component {number}: {model.num_reg_images()} of {len(component)} images; "
-                f"their tracks determine {largest} together ({tracks.value})"
-            )
+        options.min_model_size = min(len(names), 10)
+        out = folder / "sparse" / listed.parent.name
+        out.mkdir(parents=True, exist_ok=True)
+        for number, model in pycolmap.incremental_mapping(database, images, out, options).items():
+            # After mapping: do the tracks of the model still hold its cameras together?
+            again = viewcert.verify(viewcert.tracks_from_reconstruction(model))
+            print(f"{out / str(number)}: {model.num_reg_images()} of {len(names)} images ({again.value})")
 
 
 if __name__ == "__main__":
     pycolmap.logging.minloglevel = 1  # warnings and worse
-    with tempfile.TemporaryDirectory() as name:
-        place = pathlib.Path(name)
-        arguments = [pathlib.Path(word) for word in sys.argv[1:]]
-        given = arguments[0] if arguments else made_up(place)
-        main(given, arguments[1] if len(arguments) > 1 else place / "images", place)
+    if len(sys.argv) < 2:
+        raise SystemExit(__doc__)
+    place, *given = map(pathlib.Path, sys.argv[1:])
+    place.mkdir(parents=True, exist_ok=True)
+    main(given[0] if given else made_up(place), given[1] if len(given) > 1 else place / "images", place)

@@ -10,7 +10,7 @@ use pyo3::types::PyBytes;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use viewcert_check::Failure;
-use viewcert_cli::{ListsAsked, News, OverviewAsked, check_archive};
+use viewcert_cli::{ListsAsked, MergeAsked, News, OverviewAsked, check_archive};
 use viewcert_formats::ReadOptions;
 use viewcert_formats::folder::Listing;
 use viewcert_report::overview_page;
@@ -109,6 +109,35 @@ pub(crate) fn lists(
             options,
             of_tracks,
             says_views,
+        };
+        let (mut json, mut text) = (Vec::new(), Vec::new());
+        asked.of(&session, |report| {
+            report.write_json(&mut json)?;
+            Ok(report.write(&mut text)?)
+        })?;
+        Ok((String::from_utf8(json)?, String::from_utf8(text)?))
+    };
+    let found = job.run(py, move || threads.install(work))?;
+    found.map_err(|error| of_any(&error))
+}
+
+/// What two models share, and how well it fits, as JSON and as text.
+#[pyfunction]
+pub(crate) fn merge(
+    py: Python<'_>,
+    one: PathBuf,
+    other: PathBuf,
+    database: Option<PathBuf>,
+    reading: Reading,
+) -> PyResult<(String, String)> {
+    let [_, options] = reading.options()?;
+    let (job, threads) = (Job::new(py)?, work::threads()?);
+    let session = Session::under(job.watch());
+    let work = move || -> anyhow::Result<(String, String)> {
+        let asked = MergeAsked {
+            models: [&one, &other],
+            database: database.as_deref(),
+            options,
         };
         let (mut json, mut text) = (Vec::new(), Vec::new());
         asked.of(&session, |report| {

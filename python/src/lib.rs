@@ -35,7 +35,7 @@ mod _native {
     #[pymodule_export]
     use super::decided::{Decided, decide};
     #[pymodule_export]
-    use super::files::{Archive, check_all, lists, overview};
+    use super::files::{Archive, check_all, lists, merge, overview};
     #[pymodule_export]
     use super::graph::{Graph, graph_of_integers, graph_of_nodes, read};
     #[pymodule_export]

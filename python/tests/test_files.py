@@ -95,6 +95,18 @@ def test_lists_are_the_programs(tmp_path: pathlib.Path, program: Program) -> Non
         viewcert.lists(graph, "first.txt")
 
 
+def test_a_merge_is_the_programs(program: Program, data: pathlib.Path) -> None:
+    one, other = (data / "turn4/files" / name for name in ("merge_a", "merge_other_db"))
+    found = viewcert.merge(one, other)
+    (theirs,) = program.json("merge", one, other)
+    assert untimed(found.found) == untimed(theirs)
+    assert found.determined and found.agree and found.disagree == ()
+    assert not theirs["model_merger"] and "aborts" in found.report()
+    with pytest.raises(viewcert.InputError, match="no folder"):
+        viewcert.merge(one, other / "images.txt")
+
+
+
 def archive(folder: pathlib.Path) -> pathlib.Path:
     """A copy of a small part of what is published, with a manifest of its own."""
     manifest = json.loads((ROOT / "certificates/manifest.json").read_text())

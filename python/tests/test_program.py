@@ -194,13 +194,18 @@ def test_what_to_do_is_what_the_program_says(
     assert [part + 1 for part in explained.components] == found["explain"]["components"]
     assert explained.pairs_inside == found["explain"]["pairs_inside"]
     ours, theirs = tmp_path / "ours", tmp_path / "theirs"
-    export = viewcert.export(verdict, ours)
+    export = viewcert.export(path, ours)
     program.run("export", path, theirs)
     assert export.components == len(list((theirs / "components").iterdir())) > 0
     files = sorted(file.relative_to(theirs) for file in theirs.rglob("*") if file.is_file())
     for file in files:
         assert (ours / file).read_bytes() == (theirs / file).read_bytes(), file
     assert len(files) == len([file for file in ours.rglob("*") if file.is_file()])
+    # By pairs, where those are what the verdict is about.
+    assert viewcert.export(verdict, tmp_path / "pairs").components == 1
+    program.run("export", path, tmp_path / "same", "--model", "projective")
+    listed = "components/001/pairs.txt"
+    assert (tmp_path / "pairs" / listed).read_bytes() == (tmp_path / "same" / listed).read_bytes()
 
 
 def test_a_refused_question_says_what_is_missing(tmp_path: pathlib.Path) -> None:

@@ -353,7 +353,7 @@ pub fn shell(word: &str) -> String {
 }
 
 /// A string for Python, without single quotes, as it goes into a shell's.
-fn python(text: &str) -> String {
+pub fn python(text: &str) -> String {
     let escaped = text
         .replace('\\', r"\\")
         .replace('"', "\\\"")

@@ -11,6 +11,7 @@ pub mod joints;
 pub mod lists;
 pub mod mapper;
 pub mod merge;
+pub mod misfit;
 pub mod named;
 pub mod narrow;
 pub mod noticed;
@@ -39,7 +40,8 @@ pub use noticed::{Break, Lost, Surplus, redundant, surplus};
 pub use parts::{Part, Parts};
 pub use request::Request;
 pub use suggest::{
-    Candidate, Near, Nearness, Reason, SuggestedMatch, Suggestion, Tried, suggest, suggest_matches,
+    Candidate, Near, Nearness, Reason, SuggestedMatch, Suggestion, Tried, gap, suggest,
+    suggest_matches,
 };
 pub use task::{Weak, named_joints};
 pub use viewcert_formats::OtherPair;

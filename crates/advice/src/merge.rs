@@ -8,24 +8,29 @@
 //! are nodes. Two bodies with two common nodes are one (Theorem 4.1, rule 2), with one the scale is
 //! free. Images of a frame that were taken at one place are one camera; a model with a known base line
 //! is a scaled body, and two of these that share a node are one (13.16). With a database the graph of
-//! its tracks is decided with both models as known parts (Theorem 4.14). No number of a model is used
-//! but to see which sensors are at one place; nothing is written.
+//! its tracks is decided with both models as known parts (Theorem 4.14). Numbers of the models say which
+//! images are at one place, and how well what is shared fits ([`misfit`](crate::misfit)): two models that
+//! contradict each other cannot both be right. Nothing is written.
 
 use crate::Shapes;
 use crate::condensation::{chain, with};
+use crate::misfit::{Common, Misfit, View, first_at_place};
 use crate::named::{Names, Suggestion};
 use crate::parts::Parts;
 use crate::task::{Task, number};
 use crate::words::{self, Scales};
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Error, Result, ensure};
 use serde::Serialize;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::path::Path;
 use viewcert::decide::{Calibrated, Known, Options, Question, decide};
 use viewcert::geometry::model::Model as Geometry;
 use viewcert::graph::UnionFind;
 use viewcert::watch::Watch;
 use viewcert::{KnownParts, Verdict};
-use viewcert_formats::{Model, NamedGraph, with_rigs};
+use viewcert_formats::colmap::FeatureTracks;
+use viewcert_formats::model::{Image, Model};
+use viewcert_formats::{NamedGraph, with_rigs};
 
 /// Degrees of freedom of a similarity, of translation and scale, and of scale.
 const SIMILARITY: usize = 7;
@@ -57,6 +62,8 @@ pub struct Merge {
     /// How many points of both are seen by one feature of an image of both; null if the features
     /// of these images are not the same.
     pub shared_points: Option<usize>,
+    /// How well both fit by what they share; null if they share too little to contradict each other.
+    pub misfit: Option<Misfit>,
     /// Whether something fixes the one against the other: rotation, translation and scale.
     pub determined: bool,
     /// How many of the 7 degrees of freedom are left; null where third parts may fix some of them.
@@ -65,77 +72,293 @@ pub struct Merge {
     pub free: String,
     /// What it rests on: `models` or `tracks`.
     pub by: &'static str,
-    /// Whether there are images enough in both for COLMAP's `model_merger`.
+    /// Whether COLMAP's `model_merger` can work on both.
     pub model_merger: bool,
+    /// What it does.
+    #[serde(skip)]
+    pub merger: Merger,
     /// With a database, images to match that would join the two; empty if none was found.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub suggestions: Option<Vec<Suggestion>>,
 }
 
-/// What two models alone tell. O(n log n) for n features of images of both.
-pub fn of_models(models: [&Model; 2]) -> Merge {
-    let [one, other] = models.map(|model| {
-        let images = model.images.iter();
-        let named = images.map(|image| (&*image.name, image));
-        named.collect::<BTreeMap<_, _>>()
-    });
-    let both = one.iter().filter_map(|(name, first)| {
-        let second = other.get(name)?;
-        Some((*name, *first, *second))
-    });
-    let both: Vec<_> = both.collect();
-    let places = places(models, both.iter().map(|(_, first, _)| first.id));
-    let same_features = both
-        .iter()
-        .all(|(_, first, second)| first.points.len() == second.points.len());
-    let same = both.iter().flat_map(|(_, first, second)| {
-        let features = first.points.iter().zip(&second.points);
-        features.filter_map(|(&a, &b)| Some((a?, b?)))
-    });
-    let shared_points = same_features.then(|| classes(same));
-    let scaled = models.map(|model| !model.known_frames().groups.is_empty());
-    let of_scale = if scaled == [true, true] { 0 } else { SCALE };
-    let freedom = match (places, shared_points.unwrap_or(0)) {
-        (0, _) => RIGID + of_scale,
-        (1, 0) => of_scale,
-        _ => 0,
-    };
-    Merge {
-        images: models.map(|model| model.images.len()),
-        shared_places: places,
-        scaled,
-        points: models.map(|model| model.points.len()),
-        shared_images: both.iter().map(|(name, ..)| (*name).to_owned()).collect(),
-        shared_points,
-        determined: freedom == 0,
-        freedom: Some(freedom),
-        free: free(freedom),
-        by: "models",
-        model_merger: both.len() >= MERGER,
-        suggestions: None,
+impl Merge {
+    /// Whether the two can be made one: everything is determined, and nothing contradicts it.
+    pub fn is_good(&self) -> bool {
+        self.determined && self.agree()
+    }
+
+    /// Whether nothing that was compared contradicts something else.
+    pub fn agree(&self) -> bool {
+        self.misfit.as_ref().is_none_or(|misfit| misfit.agree)
     }
 }
 
-/// At how many places images of both were taken: images of a frame may be at one, by either model.
-fn places(models: [&Model; 2], both: impl Iterator<Item = u32>) -> usize {
-    let [first, second] = models;
-    let both: BTreeSet<u32> = both.collect();
-    let shared = first.images.iter().filter(|image| both.contains(&image.id));
-    let names: Vec<&str> = shared.map(|image| &*image.name).collect();
-    let at = |name: &str| names.iter().position(|of_both| *of_both == name);
-    let mut sets = UnionFind::new(names.len());
-    let mut count = names.len();
-    for model in [first, second] {
-        for (&one, others) in &model.known_frames().together {
-            let one = std::iter::once(&model.images[one as usize].name);
-            let here: Vec<usize> = one.chain(others).filter_map(|name| at(name)).collect();
-            for two in here.windows(2) {
-                count -= usize::from(sets.find(two[0]) != sets.find(two[1]));
-                sets.union(two[0], two[1]);
+/// What COLMAP's `model_merger` does with two models, whose images it takes for the same by name and
+/// then by number.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Merger {
+    /// It merges them.
+    Works,
+    /// It refuses: too few images with points of both.
+    TooFew(usize),
+    /// It would make up the scale, as all images of both are at one place.
+    OnePlace,
+    /// It aborts: an image has these numbers.
+    OtherNumbers(String, [u32; 2]),
+    /// It aborts: an image has so many features.
+    OtherFeatures(String, [usize; 2]),
+    /// It refuses: a number is that of these images.
+    OtherNames(u32, [String; 2]),
+}
+
+/// Two models, and what they share.
+pub struct Two<'a> {
+    models: [&'a Model; 2],
+    /// The poses of their images.
+    views: [Vec<View>; 2],
+    /// The places of their points, by number.
+    places: [BTreeMap<u64, [f64; 3]>; 2],
+    /// The images of both by name: their places in both lists.
+    both: BTreeMap<&'a str, [usize; 2]>,
+    /// Whether an image of both has as many features in both.
+    same_features: bool,
+}
+
+impl<'a> Two<'a> {
+    /// Compares the images of two models. O(n log n) for n features.
+    ///
+    /// # Errors
+    /// The first image or point of which the numbers are none.
+    pub fn new(models: [(&Path, &'a Model); 2]) -> Result<Self> {
+        let [one, other] = models.map(|(_, model)| model);
+        let places: HashMap<&str, usize> = (0..)
+            .zip(&other.images)
+            .map(|(k, image)| (&*image.name, k))
+            .collect();
+        let both = (0..).zip(&one.images).filter_map(|(k, image)| {
+            let name = &*image.name;
+            Some((name, [k, *places.get(name)?]))
+        });
+        let mut two = Self {
+            models: [one, other],
+            views: [views(models[0])?, views(models[1])?],
+            places: [points(models[0])?, points(models[1])?],
+            both: both.collect(),
+            same_features: true,
+        };
+        let same = |(_, [a, b]): (&str, [&Image; 2])| a.points.len() == b.points.len();
+        let same_features = two.images().all(same);
+        two.same_features = same_features;
+        Ok(two)
+    }
+
+    /// The images of both.
+    fn images(&self) -> impl Iterator<Item = (&'a str, [&'a Image; 2])> {
+        let [one, other] = self.models;
+        let both = self.both.iter();
+        both.map(|(name, &[a, b])| (*name, [&one.images[a], &other.images[b]]))
+    }
+
+    /// Points of both that one feature of an image of both sees.
+    fn seen_in_both(&self) -> impl Iterator<Item = (u64, u64)> {
+        let images = self.images().filter(|_| self.same_features);
+        images.flat_map(|(_, [a, b])| {
+            let features = a.points.iter().zip(&b.points);
+            features.filter_map(|(&a, &b)| Some((a?, b?)))
+        })
+    }
+
+    /// Points of both by the tracks of their database.
+    ///
+    /// # Errors
+    /// An image with other features than the database has.
+    fn in_one_track(&self, tracks: &FeatureTracks) -> Result<Vec<(u64, u64)>> {
+        let mut of_tracks: [BTreeMap<u32, BTreeSet<u64>>; 2] = Default::default();
+        for (model, of_tracks) in self.models.iter().zip(&mut of_tracks) {
+            for image in &model.images {
+                let Some(known) = tracks.get(&image.name) else {
+                    continue;
+                };
+                let count = image.points.len();
+                let features = known
+                    .features
+                    .filter(|&features| features as usize != count);
+                if let Some(features) = features.filter(|_| count > 0) {
+                    return Err(Error::msg(format!(
+                        "image {} has {count} features in a model and {features} in the database: the model is \
+                         of another database; name its own",
+                        image.name
+                    )));
+                }
+                let seen = image.points.iter().zip(&known.tracks);
+                for (point, track) in seen.filter_map(|(point, track)| (*point).zip(*track)) {
+                    of_tracks.entry(track).or_default().insert(point);
+                }
             }
         }
+        let [one, other] = of_tracks;
+        let both = one
+            .iter()
+            .filter_map(|(track, points)| Some((points, other.get(track)?)));
+        let pairs = both.flat_map(|(one, other)| {
+            let pairs = one.iter().flat_map(|&a| other.iter().map(move |&b| (a, b)));
+            pairs.collect::<Vec<_>>()
+        });
+        Ok(pairs.collect())
     }
-    count
+
+    /// What both share, as it is measured: of points those that are one of each model.
+    fn common(&self, same: impl Iterator<Item = (u64, u64)>, at_one_place: bool) -> Common<'a> {
+        let same: BTreeSet<(u64, u64)> = same.collect();
+        let (mut of_one, mut of_other) = (HashMap::new(), HashMap::new());
+        for (a, b) in &same {
+            *of_one.entry(a).or_insert(0) += 1;
+            *of_other.entry(b).or_insert(0) += 1;
+        }
+        let single = same
+            .iter()
+            .filter(|(a, b)| of_one[a] == 1 && of_other[b] == 1);
+        let [one, other] = &self.places;
+        let images = self.both.iter();
+        Common {
+            images: images
+                .map(|(name, &[a, b])| (*name, [self.views[0][a], self.views[1][b]]))
+                .collect(),
+            points: single
+                .filter_map(|(a, b)| Some([*one.get(a)?, *other.get(b)?]))
+                .collect(),
+            at_one_place,
+        }
+    }
+
+    /// What COLMAP's own command does.
+    fn merger(&self, at_one_place: bool) -> Merger {
+        let [one, other] = self.models;
+        let names = other.images.iter().map(|image| (image.id, &image.name));
+        let names: HashMap<u32, &Box<str>> = names.collect();
+        let seen = |[a, b]: &[&Image; 2]| {
+            a.points
+                .iter()
+                .zip(&b.points)
+                .any(|(a, b)| a.is_some() && b.is_some())
+        };
+        let useful = self.images().filter(|(_, both)| seen(both)).count();
+        let all = || {
+            self.images().take(if self.both.len() < MERGER {
+                0
+            } else {
+                usize::MAX
+            })
+        };
+        let number = all().find(|(_, [a, b])| a.id != b.id);
+        let features = all().find(|(_, [a, b])| a.points.len() != b.points.len());
+        let renamed = one.images.iter().find_map(|image| {
+            let name = *names.get(&image.id)?;
+            (*name != image.name).then(|| (image.id, [image.name.to_string(), name.to_string()]))
+        });
+        match (number, features, renamed) {
+            (Some((name, both)), ..) => {
+                Merger::OtherNumbers(name.to_owned(), both.map(|image| image.id))
+            }
+            (_, Some((name, both)), _) => {
+                Merger::OtherFeatures(name.to_owned(), both.map(|image| image.points.len()))
+            }
+            _ if useful < MERGER => Merger::TooFew(useful),
+            (_, _, Some((number, names))) => Merger::OtherNames(number, names),
+            _ if at_one_place => Merger::OnePlace,
+            _ => Merger::Works,
+        }
+    }
+
+    /// For every image of both, in the order of names, the first one at the same place: images of a frame
+    /// may be at one, by either model, and others are where the numbers of both say so.
+    fn places(&self) -> Vec<usize> {
+        let names: Vec<&str> = self.both.keys().copied().collect();
+        let at = |name: &str| names.binary_search(&name).ok();
+        let mut sets = UnionFind::new(names.len());
+        for model in self.models {
+            for (&one, others) in &model.known_frames().together {
+                let one = std::iter::once(&model.images[one as usize].name);
+                let here: Vec<usize> = one.chain(others).filter_map(|name| at(name)).collect();
+                here.windows(2).for_each(|two| {
+                    sets.union(two[0], two[1]);
+                });
+            }
+        }
+        let [one, other] = [0, 1].map(|side| {
+            let points: Vec<[f64; 3]> = self.places[side].values().copied().collect();
+            let first = first_at_place(&self.views[side], &points);
+            let of_both = self.both.values();
+            of_both
+                .map(|both| first[both[side]])
+                .collect::<Vec<usize>>()
+        });
+        let mut known = HashMap::new();
+        for (k, place) in one.into_iter().zip(other).enumerate() {
+            sets.union(*known.entry(place).or_insert(k), k);
+        }
+        (0..names.len()).map(|k| sets.find(k)).collect()
+    }
+
+    /// What two models alone tell.
+    pub fn merge(&self) -> Merge {
+        self.merge_with(std::iter::empty())
+    }
+
+    /// The same, with further points that are the same.
+    fn merge_with(&self, further: impl Iterator<Item = (u64, u64)>) -> Merge {
+        let models = self.models;
+        let places = self.places().into_iter().collect::<BTreeSet<_>>().len();
+        let shared_points = self.same_features.then(|| classes(self.seen_in_both()));
+        let scaled = models.map(|model| !model.known_frames().groups.is_empty());
+        let of_scale = if scaled == [true, true] { 0 } else { SCALE };
+        let freedom = match (places, shared_points.unwrap_or(0)) {
+            (0, _) => RIGID + of_scale,
+            (1, 0) => of_scale,
+            _ => 0,
+        };
+        let is_one_place = self.both.len() > 1 && places == 1;
+        let merger = self.merger(is_one_place);
+        Merge {
+            images: models.map(|model| model.images.len()),
+            shared_places: places,
+            scaled,
+            points: models.map(|model| model.points.len()),
+            shared_images: self.both.keys().map(|&name| name.to_owned()).collect(),
+            shared_points,
+            misfit: self
+                .common(self.seen_in_both().chain(further), is_one_place)
+                .misfit(),
+            determined: freedom == 0,
+            freedom: Some(freedom),
+            free: free(freedom),
+            by: "models",
+            model_merger: matches!(merger, Merger::Works | Merger::OnePlace),
+            merger,
+            suggestions: None,
+        }
+    }
+}
+
+/// The poses of a model.
+fn views((path, model): (&Path, &Model)) -> Result<Vec<View>> {
+    let poses = model.measured_poses().map_err(|why| refusal(path, &why))?;
+    Ok(poses.into_iter().map(View::new).collect())
+}
+
+/// The places of its points, by number.
+fn points((path, model): (&Path, &Model)) -> Result<BTreeMap<u64, [f64; 3]>> {
+    let places = model.measured_points().map_err(|why| refusal(path, &why))?;
+    let ids = model.points.iter().map(|point| point.id);
+    Ok(ids.zip(places).collect())
+}
+
+fn refusal(path: &Path, why: &str) -> Error {
+    let path = path.display();
+    Error::msg(format!(
+        "{path}/{why}; map again, or leave it out of the model"
+    ))
 }
 
 /// How many classes of points there are: points of the two models that are the same, directly or by
@@ -170,12 +393,25 @@ fn free(freedom: usize) -> String {
 /// # Errors
 /// An image of a model that the database does not have; those of decisions; work that was stopped.
 pub fn of_tracks(
-    models: [&Model; 2],
+    two: &Two,
     input: &mut NamedGraph,
+    tracks: &FeatureTracks,
     seed: u64,
     watch: &Watch,
 ) -> Result<(Merge, Verdict)> {
-    let parts = cameras_of(models, input)?;
+    let mut parts = cameras_of(two.models, input)?;
+    let mut merge = two.merge_with(two.in_one_track(tracks)?.into_iter());
+    if merge.shared_images.len() > 1 && merge.shared_places == 1 && !merge.determined {
+        // Several cameras at one place are one place, and would be several.
+        let [one, other] = &mut parts;
+        let mut shared = 0;
+        other.retain(|v| {
+            let is_shared = one.binary_search(v).is_ok();
+            shared += usize::from(is_shared);
+            !is_shared || shared == 1
+        });
+    }
+    let parts = parts;
     let question = match with_rigs(Known::default(), input)? {
         Known::Parts(_) => {
             let known = KnownParts::new(input.graph.nodes() as u32, parts.clone())?;
@@ -194,7 +430,6 @@ pub fn of_tracks(
     let verdict = decide(graph, &options.watch(watch.clone()))?;
     let found = Parts::new(graph, &verdict);
     let components = parts.each_ref().map(|part| home(&found, &verdict, part));
-    let mut merge = of_models(models);
     merge.by = "tracks";
     merge.determined |= components[0].is_some() && components[0] == components[1];
     merge.suggestions = Some(Vec::new());

@@ -36,6 +36,9 @@ pub struct Advice {
     /// Pairs that would join components.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub suggestions: Option<Vec<Suggestion>>,
+    /// Where a photograph would help, if all that could be matched was.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub photograph: Option<Photograph>,
     /// One image.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub explain: Option<Explain>,
@@ -150,11 +153,13 @@ pub struct Suggestion {
     pub enough: Option<Enough>,
 }
 
-impl Suggestion {
-    /// Whether one of its pairs was matched before, and no match was right.
-    pub fn was_in_vain(&self) -> bool {
-        self.tried.iter().flatten().any(|&word| word == "in-vain")
-    }
+/// Two groups of images that need a photograph between them.
+#[derive(Clone, Debug, Serialize)]
+pub struct Photograph {
+    /// The two images that are nearest to each other, one of each group.
+    pub between: [String; 2],
+    /// The images of both groups.
+    pub groups: [Vec<String>; 2],
 }
 
 /// What COLMAP's mappers need by default, beside what is enough.

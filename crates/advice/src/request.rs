@@ -142,7 +142,11 @@ impl Request {
             advice.implied = Some(task.implied(most as usize)?);
         }
         if let Some(most) = self.suggest {
-            advice.suggestions = Some(task.suggest(&joints, most as usize, None)?);
+            let found = task.suggest(&joints, most as usize, None)?;
+            if found.is_empty() && !advice.is_whole {
+                advice.photograph = task.photograph();
+            }
+            advice.suggestions = Some(found);
         }
         if let Some(image) = &self.explain {
             advice.explain = Some(task.explain(&joints, image)?);

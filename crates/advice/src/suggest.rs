@@ -1,9 +1,9 @@
 //! Pairs that, if they were matched, would join components.
 //!
 //! Each suggestion is proved: the graph with the pairs added is decided, on a condensation of its
-//! components. Which pairs are tried first is a guess ([`candidates`]): pairs that are known to have
-//! matches, else images that are near each other ([`nearness`]); what was matched in vain comes last
-//! ([`tried`]).
+//! components; it is worth something only if its images really overlap. Which pairs are tried first is a
+//! guess ([`candidates`]): pairs that are known to have matches, else images that are near each other
+//! ([`nearness`]). A pair that was matched with too little coming of it is not named again ([`tried`]).
 
 use crate::joints::{How, Joint};
 use crate::parts::Parts;
@@ -35,8 +35,8 @@ use search::Search;
 /// Pairs that join components, if they are matched and verified.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Suggestion {
-    /// The pairs, with what is known of each. One, if one is enough; otherwise a set that is enough
-    /// and of which none can be left out, though a smaller set may exist.
+    /// The pairs, with what is known of each, the most promising first. One, if one is enough; otherwise a
+    /// set that is enough and of which none but the first can be left out, though a smaller set may exist.
     pub pairs: Vec<((u32, u32), Option<OtherPair>)>,
     /// The components that become one, or parts of one, increasing.
     pub components: Vec<usize>,
@@ -48,29 +48,20 @@ pub struct Suggestion {
     pub candidates: Vec<Candidate>,
 }
 
-/// Whether it failed, whether it is a set, how far it was tried; gain, pairs, round and cost.
-type Rank = (bool, bool, Tried, (Reverse<usize>, usize, usize, u32));
+/// How far it was tried, round and cost; whether it is a set, gain and pairs.
+type Rank = (Tried, usize, u32, (bool, Reverse<usize>, usize));
 
 impl Suggestion {
-    /// The best ones first: what was tried in vain comes last, and single pairs come before sets, of
-    /// which the pair that is least promising counts. Of single pairs those come first that are
-    /// worth most trying, of sets those that join most.
+    /// The most promising ones first, and of a set the pair that is least promising counts; then single pairs
+    /// before sets, and of sets those that join most.
     fn rank(&self) -> Rank {
-        let ranks = self.candidates.iter().map(Candidate::rank);
-        let (tried, round, cost) = ranks.max().unwrap_or((Tried::Not, 0, 0));
-        let several = self.pairs.len() > 1;
-        let (gain, count) = if several {
-            (self.gain, self.pairs.len())
-        } else {
-            (0, 1)
-        };
-        let place = (Reverse(gain), count, round, cost);
-        (self.has_failed(), several, tried, place)
-    }
-
-    /// Whether a pair of it was matched with too little coming of it.
-    fn has_failed(&self) -> bool {
-        self.candidates.iter().any(|one| one.tried.is_failure())
+        let all = || self.candidates.iter();
+        let tried = all().map(|one| one.tried).max().unwrap_or(Tried::Not);
+        let cost = all().map(|one| one.cost).max().unwrap_or(0);
+        match &self.candidates[..] {
+            [one] => (tried, one.round, cost, (false, Reverse(0), 1)),
+            pairs => (tried, 0, cost, (true, Reverse(self.gain), pairs.len())),
+        }
     }
 }
 
@@ -89,8 +80,8 @@ const TRIED: usize = 200;
 /// Most suggestions, of pairs or of matches, that join the same components.
 const ALIKE: usize = 8;
 
-/// Suggests pairs: single ones first, as they are worth trying; then sets of several, by how many
-/// images they add to a component; and last what was matched already and gave too little.
+/// Suggests pairs, and sets of pairs where no single one that is as promising is enough: the most promising
+/// first.
 ///
 /// A decision of the condensed graph for each of some hundred candidates.
 ///
@@ -123,6 +114,13 @@ pub fn suggest(
     sets.extend(search.twice(&alone));
     dedup(&mut sets);
     let rounds: HashMap<Pair, Candidate> = seen.into_iter().map(|one| (one.pair, one)).collect();
+    // The most promising pair of a set is its first.
+    let trusted = |mut sets: Vec<Vec<Pair>>| {
+        for set in &mut sets {
+            set.sort_by_key(|&pair| costs.candidate(pair).trust());
+        }
+        sets
+    };
     let explained = |mut found: Vec<Suggestion>| {
         for one in &mut found {
             let pairs = one.pairs.iter().map(|(pair, _)| {
@@ -133,21 +131,29 @@ pub fn suggest(
         }
         found
     };
-    let mut found = explained(search.proved(sets, options)?);
+    let mut found = explained(search.proved(trusted(sets), options)?);
     found.retain(|one| search.joins_both(one));
     // A set for two parts is about none of their images.
     if wanted.at.is_none() {
         let several = search.several(joints, &found, &costs, options)?;
-        found.extend(explained(search.proved(several, options)?));
-        if found.iter().all(Suggestion::has_failed) {
+        found.extend(explained(search.proved(trusted(several), options)?));
+        if found.is_empty() {
             let anywhere = search.anywhere(&costs, options)?;
-            found.extend(explained(search.proved(anywhere, options)?));
+            found.extend(explained(search.proved(trusted(anywhere), options)?));
         }
     }
     Ok(ranked(found, wanted.most))
 }
 
 type Pair = (u32, u32);
+
+/// The two images of different parts that are nearest to each other, if all pairs that could join anything
+/// were matched already: a photograph between them would help. Of the first `images` nodes, and for some
+/// thousand images at most.
+pub fn gap(graph: &Graph, parts: &Parts, known: Known, images: u32) -> Option<(u32, u32)> {
+    let search = Search::new(graph, parts, known, images);
+    Costs::new(&search).gap()
+}
 
 fn ordered((a, b): Pair) -> Pair {
     (a.min(b), a.max(b))

@@ -189,6 +189,37 @@ impl<'a> Task<'a> {
         })
     }
 
+    /// Where a photograph would help, if all that could be matched was.
+    pub(crate) fn photograph(&self) -> Option<named::Photograph> {
+        self.input.matching.as_ref()?;
+        let images = self.names.images();
+        let near = self.near();
+        let known = Known {
+            near: Some(&near),
+            ..self.known
+        };
+        let (a, b) = advice::gap(&self.input.graph, &self.parts, known, images.end)?;
+        let group = |v: u32| match self.parts.of(v) {
+            [] => vec![self.names.of(v)],
+            [part, ..] => {
+                let nodes = self.parts.parts[*part as usize].nodes.iter();
+                let cameras = nodes.filter(|v| images.contains(*v));
+                cameras.map(|&v| self.names.of(v)).collect()
+            }
+        };
+        Some(named::Photograph {
+            between: self.names.pair((a, b)),
+            groups: [group(a), group(b)],
+        })
+    }
+
+    /// What says which images are near each other: names and positions.
+    fn near(&self) -> Nearness {
+        let names: Vec<String> = self.names.images().map(|v| self.names.of(v)).collect();
+        let matching = self.input.matching.as_ref();
+        Nearness::new(&names, matching.map_or(&[], |known| &known.positions))
+    }
+
     pub(crate) fn suggest(
         &self,
         joints: &[advice::Joint],
@@ -196,9 +227,7 @@ impl<'a> Task<'a> {
         at: Option<u32>,
     ) -> Result<Vec<named::Suggestion>> {
         let wanted = Wanted { most, at };
-        let names: Vec<String> = self.names.images().map(|v| self.names.of(v)).collect();
-        let matching = self.input.matching.as_ref();
-        let near = Nearness::new(&names, matching.map_or(&[], |known| &known.positions));
+        let near = self.near();
         let known = Known {
             near: Some(&near),
             ..self.known

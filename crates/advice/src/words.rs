@@ -85,7 +85,7 @@ pub(crate) fn reason(reason: Reason, names: &Names) -> String {
         Reason::Near(Near::Position(rank)) => format!("number {rank} of the nearest by position"),
         Reason::Common(third) => format!("both match {}", names.of(third)),
         Reason::Beside(a, b) => format!("beside {} and {}", names.of(a), names.of(b)),
-        Reason::Any => "one of each side".to_owned(),
+        Reason::Any => "a guess: nothing speaks for these two".to_owned(),
     }
 }
 

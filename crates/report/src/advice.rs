@@ -4,7 +4,9 @@ use crate::noticed;
 use crate::shown::{SHOWN, rest};
 use std::io::{self, Write};
 use viewcert::wording::counted;
-use viewcert_advice::named::{Advice, Enough, Explain, Export, Joint, Suggestion, Weak};
+use viewcert_advice::named::{
+    Advice, Enough, Explain, Export, Joint, Photograph, Suggestion, Weak,
+};
 
 /// Length of the longest bar of a plot.
 
@@ -19,7 +21,7 @@ pub fn write(out: &mut impl Write, advice: &Advice) -> io::Result<()> {
     }
     noticed::write(out, advice)?;
     if let Some(found) = &advice.suggestions {
-        let joined = "proved: these would join components";
+        let joined = "if these images really overlap, matching them joins components: proved";
         let count = match advice.is_whole {
             true => "nothing is to be joined: one component holds everything".to_owned(),
             false => some(found.len(), joined),
@@ -27,6 +29,9 @@ pub fn write(out: &mut impl Write, advice: &Advice) -> io::Result<()> {
         writeln!(out, "  suggested   {count}")?;
         suggestions(out, found)?;
         hints(out, found)?;
+    }
+    if let Some(found) = &advice.photograph {
+        photograph(out, found)?;
     }
     if let Some(found) = &advice.explain {
         explain(out, found, advice.of_tracks)?;
@@ -137,10 +142,15 @@ pub(crate) fn suggestions<'a>(
     found: impl IntoIterator<Item = &'a Suggestion>,
 ) -> io::Result<()> {
     for one in found {
-        let pairs: Vec<String> = one.pairs.iter().map(|[a, b]| format!("{a} {b}")).collect();
-        let enough = match pairs.len() {
-            1 => "",
-            _ => " (all of them: enough, perhaps not the fewest)",
+        let pairs = one.pairs.iter().zip(&one.why);
+        let pairs = pairs.map(|([a, b], why)| match one.pairs.len() {
+            1 => format!("{a} {b}"),
+            _ => format!("{a} {b} ({why})"),
+        });
+        let pairs: Vec<String> = pairs.collect();
+        let (enough, reason) = match &one.why[..] {
+            [why] => ("", Some(why.clone())),
+            _ => (" (all of them: enough, perhaps not the fewest)", None),
         };
         let inliers = one
             .inliers
@@ -152,7 +162,7 @@ pub(crate) fn suggestions<'a>(
             .map(|known| format!("matches: {}", list(known)));
         let tried = one.tried.as_deref().and_then(tried);
         let known = inliers.into_iter().chain(matches).chain(tried);
-        let known: Vec<String> = reasons(&one.why).into_iter().chain(known).collect();
+        let known: Vec<String> = reason.into_iter().chain(known).collect();
         let known = match known.len() {
             0 => String::new(),
             _ => format!(" [{}]", known.join("; ")),
@@ -178,20 +188,11 @@ pub(crate) fn suggestions<'a>(
     Ok(())
 }
 
-/// Why pairs are worth trying, unless nothing speaks for any of them.
-fn reasons(why: &[String]) -> Option<String> {
-    let mut words = why.to_vec();
-    words.dedup();
-    (words != ["one of each side"]).then(|| words.join(", "))
-}
-
 /// What has become of matching the pairs, by the worst of them.
 fn tried(all: &[&str]) -> Option<String> {
     let has = |word: &str| all.contains(&word);
     let words = match () {
         () if has("used") => return None,
-        () if has("in-vain") => "matched in vain",
-        () if has("few") => "matched, with too few",
         () if has("not-tried") => "not matched yet",
         () if has("not-verified") => "matched, not verified yet",
         () => "enough for a mapper, left out for another reason",
@@ -209,19 +210,22 @@ fn hints(out: &mut impl Write, found: &[Suggestion]) -> io::Result<()> {
         "    a mapper needs more than this: {} inliers for a pair, and {} points with a place in an image that it \
          registers (COLMAP's defaults)",
         needs.inliers, needs.points
-    )?;
-    let failed = |one: &Suggestion| {
-        let tried = one.tried.as_deref().unwrap_or_default();
-        tried.iter().any(|word| ["few", "in-vain"].contains(word))
+    )
+}
+
+/// Where a photograph would help.
+fn photograph(out: &mut impl Write, found: &Photograph) -> io::Result<()> {
+    let group = |images: &[String]| match images {
+        [first, .., last] => format!("{first} to {last} ({})", counted(images.len(), "image")),
+        _ => images.join(""),
     };
-    if found.iter().all(failed) {
-        writeln!(
-            out,
-            "    all of these were matched already and gave too little: other features, or photographs between \
-             the two sides, promise more"
-        )?;
-    }
-    Ok(())
+    let [one, other] = found.groups.each_ref().map(|images| group(images));
+    let [a, b] = &found.between;
+    writeln!(
+        out,
+        "  photograph  take one between {one} and {other}; nearest to each other are {a} and {b}: all pairs that \
+         could join something were matched, and gave too little"
+    )
 }
 
 /// How much has to come of matching two images.

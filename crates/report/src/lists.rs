@@ -1,14 +1,12 @@
 //! Lists of images and what they determine, for people and for programs.
 
 use super::{counted, json::write_line, size_of, text};
+use crate::shown::{SHOWN, some_names};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::time::Duration;
 use viewcert_advice::lists::{Fixed, Found, Lists};
 use viewcert_formats::NamedGraph;
-
-/// Most names, parts, and overlaps that are shown.
-const SHOWN: usize = 8;
 
 /// Lists, and what was found about them.
 pub struct ListReport<'a> {
@@ -142,15 +140,6 @@ fn found(list: &Found) -> String {
         _ => format!(", in none: {}", some_names(&list.outside)),
     };
     format!("{images}, not whole: {parts}{outside}")
-}
-
-/// Some names and how many more.
-fn some_names(names: &[String]) -> String {
-    let mut shown: Vec<String> = names.iter().take(SHOWN).cloned().collect();
-    if names.len() > SHOWN {
-        shown.push(format!("and {} more", names.len() - SHOWN));
-    }
-    shown.join(", ")
 }
 
 #[derive(Serialize)]

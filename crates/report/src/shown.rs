@@ -12,3 +12,12 @@ pub(crate) fn rest(out: &mut impl Write, count: usize, advice: &str) -> io::Resu
         more => writeln!(out, "    and {more} more ({advice})"),
     }
 }
+
+/// Some names and how many more.
+pub(crate) fn some_names(names: &[String]) -> String {
+    let mut shown: Vec<String> = names.iter().take(SHOWN).cloned().collect();
+    if names.len() > SHOWN {
+        shown.push(format!("and {} more", names.len() - SHOWN));
+    }
+    shown.join(", ")
+}

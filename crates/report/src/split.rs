@@ -7,13 +7,11 @@ use super::{Report, condition, counted, text};
 use crate::advice::joints as write_joints;
 use crate::assumptions::BaseLines;
 use crate::sheet::{Scene, Sheet};
+use crate::shown::{SHOWN, some_names};
 use serde::Serialize;
 use std::io::{self, Write};
 use viewcert_advice::Advice;
 use viewcert_advice::split::{PAGE, Piece, Split};
-
-/// Most names, and most parts, that are shown.
-const SHOWN: usize = 8;
 
 /// The verdict on a model's tracks, and the parts that were written.
 pub struct SplitReport<'a> {
@@ -189,16 +187,6 @@ fn capital(words: &str) -> String {
         .chain(letters)
         .chain(['.'])
         .collect()
-}
-
-/// Some names and how many more.
-fn some_names(names: &[String]) -> String {
-    let shown = names.iter().take(SHOWN).cloned();
-    let mut shown: Vec<String> = shown.collect();
-    if names.len() > SHOWN {
-        shown.push(format!("and {} more", names.len() - SHOWN));
-    }
-    shown.join(", ")
 }
 
 #[derive(Serialize)]

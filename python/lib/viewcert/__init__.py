@@ -54,7 +54,7 @@ from ._catalog import (
 )
 from ._check import Verified, check
 from ._errors import Error, InputError, NoteWarning, Rejected, TooLarge, Undecided
-from ._files import Archive, ListedImages, Lists, NotVerified, Overview, check_all, lists, overview
+from ._files import Archive, ListedImages, Lists, Merge, NotVerified, Overview, check_all, lists, merge, overview
 from ._graph import (
     Graph,
     from_database,
@@ -149,6 +149,7 @@ __all__ = [
     "label",
     "limits",
     "lists",
+    "merge",
     "models",
     "overview",
     "read",

@@ -10,7 +10,7 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple, get_args
 from ._arguments import one_of, whole
 from ._errors import InputError
 from ._convert import Node
-from ._graph import Path
+from ._graph import Path, tracks_from_database
 from ._types import Lost, Strength, Value
 from ._verdict import Verdict, verify
 
@@ -41,7 +41,7 @@ class Weak:
 
 @dataclass(frozen=True)
 class Suggestion:
-    """Pairs that would join components; that they do is proved.
+    """Pairs that join components if their images really overlap: that they do then is proved.
 
     Attributes
     ----------
@@ -59,7 +59,7 @@ class Suggestion:
         Of each pair, as far as a database knows.
     tried : tuple of str, optional
         What has become of matching each pair so far, as far as a database knows: ``'left-out'``,
-        ``'not-verified'``, ``'not-tried'``, ``'few'``, ``'in-vain'`` or ``'used'``.
+        ``'not-verified'``, ``'not-tried'`` or ``'used'``.
     why : tuple of str
         Why each pair is worth trying, in words: a guess.
     frames : int
@@ -364,7 +364,8 @@ def _suggestions(found: List[Dict[str, Any]], by_text: Dict[str, Node]) -> List[
 
 
 def suggest(verdict: Any, most: int = 10) -> List[Suggestion]:
-    """Pairs that would join components, the best first.
+    """Pairs that join components if their images really overlap, the most promising first: that is what is
+    proved. `Suggestion.why` says why each is named. A pair that was matched with too little coming of it is not.
 
     Parameters
     ----------
@@ -445,7 +446,8 @@ def export(verdict: Any, folder: Path) -> Export:
     Parameters
     ----------
     verdict : Verdict
-        Or a graph, which is decided first.
+        Or a graph, which is decided first, or the path of a COLMAP database, which goes by its tracks, as
+        mappers do.
     folder : str or path
         A new folder, an empty one, or that of an earlier export, which is replaced.
 
@@ -454,6 +456,8 @@ def export(verdict: Any, folder: Path) -> Export:
     InputError
         If something else is in the folder, or COLMAP's lists cannot hold a name.
     """
+    if isinstance(verdict, (str, os.PathLike)):
+        verdict = tracks_from_database(verdict)
     verdict = _decided(verdict)
     found = _asked(verdict, "export", export=os.fspath(folder))
     by_text = verdict.graph._by_text()

@@ -240,6 +240,80 @@ def lists(
 
 
 @dataclass(frozen=True)
+class Merge:
+    """What two models share, and whether they can be made one.
+
+    Attributes
+    ----------
+    determined : bool
+        Whether what they share leaves nothing free between them.
+    agree : bool, optional
+        Whether it fits, as measured in floating point; None if they share too little to contradict each other.
+    disagree : tuple of str
+        The images that the two have at different places, the worst first.
+    found : dict
+        What ``verify merge --json`` prints.
+    """
+
+    determined: bool
+    agree: Optional[bool]
+    disagree: Tuple[str, ...]
+    found: Dict[str, Any] = field(repr=False)
+    _text: str = field(repr=False)
+
+    def report(self) -> str:
+        """What ``verify merge`` prints."""
+        return self._text
+
+
+def merge(
+    one: Path,
+    other: Path,
+    database: Optional[Path] = None,
+    *,
+    pipeline: Optional[Pipeline] = None,
+    min_inliers: Optional[int] = None,
+    min_views: Optional[int] = None,
+    max_spread: Optional[int] = None,
+    rigs: bool = True,
+) -> Merge:
+    """Says what two models of COLMAP share, whether that fixes the one against the other, and whether it fits.
+
+    Parameters
+    ----------
+    one, other : str or path
+        The folders of the models.
+    database : str or path, optional
+        The database of both: its tracks may fix what the models alone leave free.
+    pipeline, min_inliers, min_views, max_spread, rigs
+        As of :func:`read`.
+
+    Raises
+    ------
+    InputError
+        A file that cannot be read, or a pose that is none.
+    """
+    reading = _reading(
+        format=None,
+        variable=None,
+        pipeline=pipeline,
+        min_inliers=min_inliers,
+        min_views=min_views,
+        max_spread=max_spread,
+        rigs=rigs,
+        columns=None,
+        min_weight=None,
+        skip_loops=False,
+    )
+    said, text = _native.merge(os.fspath(one), os.fspath(other), None if database is None else os.fspath(database), reading)
+    found = json.loads(said)
+    misfit = found["misfit"] or {"agree": None, "disagree": ()}
+    return Merge(
+        found["determined"], misfit["agree"], tuple(image["image"] for image in misfit["disagree"]), found, text
+    )
+
+
+@dataclass(frozen=True)
 class NotVerified:
     """A certificate of an archive that was not verified: its file, its line there, and why."""
 

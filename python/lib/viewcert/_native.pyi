@@ -39,6 +39,7 @@ __all__ = [
     "label",
     "label_graph6",
     "lists",
+    "merge",
     "models",
     "overview",
     "pairs_among",
@@ -343,6 +344,12 @@ class Archive:
 def check_all(path: str | os.PathLike[str]) -> Archive: ...
 def lists(
     graph: str | os.PathLike[str], files: list[str], reading: dict[str, Any]
+) -> tuple[str, str]: ...
+def merge(
+    one: str | os.PathLike[str],
+    other: str | os.PathLike[str],
+    database: str | os.PathLike[str] | None,
+    reading: dict[str, Any],
 ) -> tuple[str, str]: ...
 def overview(path: str | os.PathLike[str], reading: dict[str, Any], kind: str) -> bytes: ...
 def rigidity_matrix(

@@ -4,8 +4,8 @@
 //! A pair costs as many steps as its images are apart: by the names of their files, by position, or
 //! by what they are matched with: how many matches both have with one third image, or that they
 //! stand beside two that are matched. Each failure of either image with an image
-//! that it is in no component with costs one step more. What was tried already comes behind what was
-//! not. Between two groups of images several pairs are chosen, on different images.
+//! that it is in no component with costs one step more. Between two groups of images several pairs are
+//! chosen, on different images.
 
 use super::nearness::Near;
 use super::{Pair, Search, ordered};
@@ -14,6 +14,9 @@ use std::collections::HashMap;
 
 /// A tenth of a step: the unit of costs.
 const STEP: u32 = 10;
+
+/// Up to so many steps apart images are neighbours.
+const NEIGHBOURS: u32 = 2;
 
 /// What a pair costs that nothing is known of.
 const UNKNOWN: u32 = 8 * STEP;
@@ -66,6 +69,11 @@ impl Candidate {
     pub fn rank(&self) -> (Tried, usize, u32) {
         (self.tried, self.round, self.cost)
     }
+
+    /// Those first for which most speaks.
+    pub(super) fn trust(&self) -> (Tried, u32, Pair) {
+        (self.tried, self.cost, self.pair)
+    }
 }
 
 /// What costs are made of.
@@ -115,23 +123,51 @@ impl<'a> Costs<'a> {
         }
     }
 
-    /// Whether a pair was matched with too little coming of it.
-    pub(super) fn has_failed(&self, pair: Pair) -> bool {
-        Tried::of(self.search.known.get(&pair)).is_failure()
+    /// The nearest two images of different parts, if all pairs that could join anything were matched.
+    pub(super) fn gap(&self) -> Option<Pair> {
+        let images = self.search.images.len();
+        if images > ALL {
+            return None;
+        }
+        let all = (0..images as u32).flat_map(|a| (a + 1..images as u32).map(move |b| (a, b)));
+        let open = all.filter(|&(a, b)| {
+            !self.search.parts.are_together(a, b) && self.search.could_join((a, b))
+        });
+        let was_tried = |pair: &Pair| {
+            let tried = Tried::of(self.search.known.get(pair));
+            tried.is_failure() || tried == Tried::Used
+        };
+        let tried: Option<Vec<Pair>> = open.map(|pair| was_tried(&pair).then_some(pair)).collect();
+        tried?
+            .into_iter()
+            .min_by_key(|&pair| (self.near(pair).0, pair))
     }
 
     /// What a pair costs, and why it is tried.
     fn of(&self, pair: Pair) -> (u32, Reason) {
+        let (cost, reason) = self.near(pair);
+        let failed = self.failures[pair.0 as usize] + self.failures[pair.1 as usize];
+        (cost.saturating_add(STEP * failed), reason)
+    }
+
+    /// How far apart its images are, and by what.
+    fn near(&self, pair: Pair) -> (u32, Reason) {
         let near = self
             .search
             .nearness
             .and_then(|near| near.of(pair.0, pair.1));
-        let near = near.map(|near| (STEP.saturating_mul(near.steps()), Reason::Near(near)));
+        let near = near.map(|near| {
+            // Neighbours come before what is guessed from matches.
+            let step = if near.steps() <= NEIGHBOURS {
+                STEP / 5
+            } else {
+                STEP
+            };
+            (step.saturating_mul(near.steps()), Reason::Near(near))
+        });
         let common = self.common.get(&pair).copied();
         let known = common.into_iter().chain(near).min_by_key(|(cost, _)| *cost);
-        let (cost, reason) = known.unwrap_or((UNKNOWN, Reason::Any));
-        let failed = self.failures[pair.0 as usize] + self.failures[pair.1 as usize];
-        (cost.saturating_add(STEP * failed), reason)
+        known.unwrap_or((UNKNOWN, Reason::Any))
     }
 
     /// The best pairs between any two groups, of different images as far as there are any: `most` at
@@ -172,7 +208,8 @@ impl<'a> Costs<'a> {
         self.chosen(pairs, most)
     }
 
-    /// The best pairs between two groups of images, of different images first.
+    /// The best pairs between two groups of images, of different images as far as there are any, the most
+    /// promising first.
     pub(super) fn between(&self, one: &[u32], other: &[u32], most: usize) -> Vec<Pair> {
         let pairs = one
             .iter()
@@ -185,30 +222,22 @@ impl<'a> Costs<'a> {
         let mut sorted = self.sorted(pairs);
         // Pairs that are used already give nothing more.
         sorted.retain(|candidate| candidate.tried != Tried::Used);
-        let mut first: Vec<Pair> = Vec::new();
-        let mut rest: Vec<Pair> = Vec::new();
-        for candidate in sorted {
-            let pair = candidate.pair;
-            let meets = |other: &Pair| {
-                [other.0, other.1]
-                    .iter()
-                    .any(|&v| v == pair.0 || v == pair.1)
-            };
-            let list = if first.iter().any(meets) {
-                &mut rest
+        let (mut first, mut rest) = (Vec::new(), 0);
+        let mut chosen = Vec::new();
+        for Candidate { pair: (a, b), .. } in sorted {
+            if !first.contains(&a) && !first.contains(&b) {
+                first.extend([a, b]);
+            } else if rest < most {
+                rest += 1;
             } else {
-                &mut first
-            };
-            if list.len() < most {
-                list.push(pair);
+                continue;
             }
-            if first.len() == most {
+            chosen.push((a, b));
+            if first.len() == 2 * most {
                 break;
             }
         }
-        first.extend(rest);
-        first.truncate(2 * most);
-        first
+        chosen
     }
 
     /// By rank and, where that is the same, images with a usual number of neighbours first: those

@@ -65,7 +65,7 @@ impl Nearness {
                 places[image as usize] = (sequence, place);
             }
         }
-        let mut orders: Vec<(usize, &str)> = keys.iter().map(Key::order).collect();
+        let mut orders: Vec<[(usize, &str); 2]> = keys.iter().map(Key::order).collect();
         orders.sort_unstable();
         orders.dedup();
         let number = |key: &Key| orders.partition_point(|order| *order < key.order()) as u32;
@@ -127,14 +127,18 @@ impl Nearness {
     }
 }
 
-/// A name, cut at its last number.
+/// A name, cut at its last number; a time before that, of six digits and more, goes with it, as in
+/// 20240131_120501 and 1305031102.175304.
 struct Key<'a> {
     before: &'a str,
-    /// Without leading zeros.
-    number: &'a str,
+    /// The time, and the number, both without leading zeros.
+    numbers: [&'a str; 2],
     after: &'a str,
     whole: &'a str,
 }
+
+/// Fewest digits of a time.
+const TIME: usize = 6;
 
 impl<'a> Key<'a> {
     fn of(whole: &'a str) -> Self {
@@ -143,15 +147,23 @@ impl<'a> Key<'a> {
             let folder = whole.rfind('/').map_or(0, |slash| slash + 1);
             return Self {
                 before: &whole[..folder],
-                number: "",
+                numbers: [""; 2],
                 after: "",
                 whole,
             };
         };
         let start = whole[..end].trim_end_matches(is_digit).len();
+        let number = &whole[start..end];
+        let (mut before, mut time) = (&whole[..start], "");
+        if let Some(rest) = before.strip_suffix(['.', '_', '-']) {
+            let of_time = rest.trim_end_matches(is_digit).len();
+            if rest.len() - of_time >= TIME {
+                (before, time) = rest.split_at(of_time);
+            }
+        }
         Self {
-            before: &whole[..start],
-            number: whole[start..end].trim_start_matches('0'),
+            before,
+            numbers: [time, number].map(|digits| digits.trim_start_matches('0')),
             after: &whole[end..],
             whole,
         }
@@ -163,10 +175,10 @@ impl<'a> Key<'a> {
     }
 
     /// Increasing along a sequence: by number, or names without one by themselves.
-    fn order(&self) -> (usize, &'a str) {
-        match self.number {
-            "" if self.after.is_empty() => (0, self.whole),
-            number => (number.len(), number),
+    fn order(&self) -> [(usize, &'a str); 2] {
+        match self.numbers {
+            ["", ""] if self.after.is_empty() => [(0, self.whole); 2],
+            numbers => numbers.map(|digits| (digits.len(), digits)),
         }
     }
 }
@@ -254,6 +266,23 @@ mod tests {
         // One number in common is no other walk.
         assert_eq!(near.of(1, 4), None);
         assert_eq!(near.pairs(1), [(0, 2), (1, 2)]);
+    }
+
+    #[test]
+    fn times_go_on_into_the_next_day() {
+        let names = [
+            "IMG_20240131_235959.jpg",
+            "IMG_20240201_000001.jpg",
+            "IMG_20240131_120000.jpg",
+        ];
+        let near = Nearness::new(&names, &[]);
+        assert_eq!(near.of(0, 1), Some(Near::Name(1)));
+        assert_eq!(near.of(1, 2), Some(Near::Name(2)));
+        let near = Nearness::new(
+            &["13050.2.png", "1305031102.9.png", "1305031103.1.png"],
+            &[],
+        );
+        assert_eq!((near.of(1, 2), near.of(0, 1)), (Some(Near::Name(1)), None));
     }
 
     #[test]

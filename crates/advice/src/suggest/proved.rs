@@ -54,12 +54,10 @@ impl Search<'_> {
             return Ok(None);
         };
         let mut set = set.to_vec();
-        for k in (0..set.len()).rev() {
+        // The first is the most promising.
+        for k in (1..set.len()).rev() {
             let mut fewer = set.clone();
             fewer.remove(k);
-            if fewer.is_empty() {
-                break;
-            }
             if let Some(same) = self.joined(small, &fewer, options)?
                 && same.images == found.images
             {

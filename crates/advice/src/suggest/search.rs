@@ -1,8 +1,8 @@
 //! What a search for pairs looks at: a graph, its components, and what is known of images.
 
 use super::nearness::Nearness;
-use super::tried::PAIR_NEEDS;
-use super::{Pair, Suggestion};
+use super::tried::{PAIR_NEEDS, Tried};
+use super::{Pair, Suggestion, ordered};
 use crate::parts::Parts;
 use crate::{Known, OtherPair};
 use std::cmp::Reverse;
@@ -61,11 +61,18 @@ impl<'a> Search<'a> {
         edges.map(|(edge, &pair)| (pair, inliers(edge))).collect()
     }
 
-    /// Whether a pair could join anything, and is where it is wanted.
+    /// Whether a pair could join anything, is where it is wanted, and was not matched with too little
+    /// coming of it.
     pub(super) fn is_candidate(&self, (a, b): Pair, at: Option<u32>) -> bool {
+        at.is_none_or(|v| v == a || v == b)
+            && self.could_join((a, b))
+            && !Tried::of(self.known.get(&ordered((a, b)))).is_failure()
+    }
+
+    /// Whether a pair could join anything.
+    pub(super) fn could_join(&self, (a, b): Pair) -> bool {
         a != b
-            && at.is_none_or(|v| v == a || v == b)
-            // Nor two images of a frame, whose base line is known.
+            // Not two images of a frame, whose base line is known.
             && !self.parts.are_of_one((a, b))
             // Of two cameras that are placed nowhere no point is known that would place either.
             && !(self.is_of_tracks() && self.parts.of(a).is_empty() && self.parts.of(b).is_empty())

@@ -1,4 +1,5 @@
-//! Sets of pairs for two parts that no single pair joins, found greedily.
+//! Sets of pairs for two parts that no single pair joins: of the most promising pairs the fewest that are
+//! enough.
 
 use super::{CHOICE, Costs, Pair, Search, Suggestion, touched};
 use crate::condensation::{Condensation, terminals};
@@ -15,8 +16,8 @@ const SETS: usize = 20;
 const POOL: usize = 250_000;
 
 impl Search<'_> {
-    /// Sets of pairs for joints that no single pair closes, and for the largest part and parts that
-    /// are not connected with it.
+    /// Sets of pairs for joints, and for the largest part and parts that are not connected with it: of pairs
+    /// that are more promising than any single one that joins the two.
     pub(super) fn several(
         &self,
         joints: &[Joint],
@@ -24,9 +25,13 @@ impl Search<'_> {
         costs: &Costs,
         options: &Options,
     ) -> Result<Vec<Vec<Pair>>, VerdictError> {
-        let joined = |[one, other]: [usize; 2]| {
-            let mut found = found.iter().filter(|found| !found.has_failed());
-            found.any(|found| found.components.contains(&one) && found.components.contains(&other))
+        let single = |[one, other]: [usize; 2]| {
+            let joins = |found: &&Suggestion| {
+                let parts = &found.components;
+                found.pairs.len() == 1 && parts.contains(&one) && parts.contains(&other)
+            };
+            let singles = found.iter().filter(joins);
+            singles.map(|found| found.candidates[0].trust()).min()
         };
         let open = joints
             .iter()
@@ -35,13 +40,16 @@ impl Search<'_> {
             .apart()
             .into_iter()
             .map(|parts| (parts, How::default()));
-        let open: Vec<([usize; 2], How)> = open
-            .filter(|(components, _)| !joined(*components))
-            .take(SETS)
-            .chain(apart.take(SETS))
-            .collect();
+        let open: Vec<([usize; 2], How)> = open.take(SETS).chain(apart.take(SETS)).collect();
         let sets = open.par_iter();
-        let sets = sets.map(|(components, how)| self.enough(*components, how, costs, options));
+        let sets = sets.map(|(components, how)| {
+            let nodes = components.map(|component| self.parts.nodes_of(component));
+            let mut pool = self.pool(&nodes, how, costs);
+            if let Some(single) = single(*components) {
+                pool.retain(|&pair| costs.candidate(pair).trust() < single);
+            }
+            self.enough(&nodes, how, &pool, options)
+        });
         let sets: Result<Vec<Option<Vec<Pair>>>, VerdictError> = sets.collect();
         Ok(sets?.into_iter().flatten().collect())
     }
@@ -65,32 +73,10 @@ impl Search<'_> {
             .collect()
     }
 
-    /// Pairs that make one of two parts, found greedily: each the one of the pool that takes most
-    /// freedom, then those left out that the others make superfluous. `None` if the pool is not
-    /// enough, or one pair is.
+    /// Pairs that make one of two parts: of the pool, the most promising first, as few as are enough; of these
+    /// those are left out that the others make superfluous, the least promising first, but never the most
+    /// promising one. `None` if the pool is not enough, or one pair is.
     fn enough(
-        &self,
-        components: [usize; 2],
-        how: &How,
-        costs: &Costs,
-        options: &Options,
-    ) -> Result<Option<Vec<Pair>>, VerdictError> {
-        let nodes = components.map(|component| self.parts.nodes_of(component));
-        let all = self.pool(&nodes, how, costs);
-        let hopeful: Vec<Pair> = all
-            .iter()
-            .copied()
-            .filter(|&pair| !costs.has_failed(pair))
-            .collect();
-        let found = self.enough_of(&nodes, how, &hopeful, options)?;
-        match found {
-            None if hopeful.len() < all.len() => self.enough_of(&nodes, how, &all, options),
-            _ => Ok(found),
-        }
-    }
-
-    /// The same of a given pool.
-    fn enough_of(
         &self,
         nodes: &[Vec<u32>; 2],
         how: &How,
@@ -99,42 +85,34 @@ impl Search<'_> {
     ) -> Result<Option<Vec<Pair>>, VerdictError> {
         let by = how.through.iter().flat_map(|&[a, x, b]| [(a, x), (x, b)]);
         let links = how.pairs.iter().copied().chain(by);
-        let ends = links
-            .clone()
-            .chain(pool.iter().copied())
-            .flat_map(|(a, b)| [a, b]);
+        let alone = || pool.iter().flat_map(|&(a, b)| [a, b]);
+        let ends = links.clone().flat_map(|(a, b)| [a, b]).chain(alone());
         let parts = [&nodes[0][..], &nodes[1]];
-        let alone = pool.iter().flat_map(|&(a, b)| [a, b]);
-        let small = Condensation::new(terminals(&parts, ends), links, alone);
+        let small = Condensation::new(terminals(&parts, ends), links, alone());
         let small = small.with_scales(self.parts);
-        let free = |set: &[Pair]| {
+        let is_enough = |set: &[Pair]| {
             let more = set.iter().map(|&pair| small.pair(pair));
-            Ok::<usize, VerdictError>(small.freedom(more, options)?.0)
+            Ok::<bool, VerdictError>(small.freedom(more, options)?.0 == 0)
         };
-        let mut chosen: Vec<Pair> = Vec::new();
-        let mut left = free(&chosen)?;
-        while left > 0 {
-            let mut best = None;
-            for &pair in pool.iter().filter(|pair| !chosen.contains(pair)) {
-                let then = free(&[&chosen[..], &[pair]].concat())?;
-                if then < best.map_or(left, |(then, _)| then) {
-                    best = Some((then, pair));
-                }
-            }
-            let Some((then, pair)) = best else {
-                return Ok(None);
-            };
-            left = then;
-            chosen.push(pair);
+        if pool.is_empty() || !is_enough(pool)? {
+            return Ok(None);
         }
-        for k in (0..chosen.len()).rev() {
+        let (mut too_few, mut enough) = (0, pool.len());
+        while too_few + 1 < enough {
+            let middle = (too_few + enough) / 2;
+            match is_enough(&pool[..middle])? {
+                true => enough = middle,
+                false => too_few = middle,
+            }
+        }
+        let mut chosen = pool[..enough].to_vec();
+        for k in (1..enough.saturating_sub(1)).rev() {
             let mut fewer = chosen.clone();
             fewer.remove(k);
-            if free(&fewer)? == 0 {
+            if is_enough(&fewer)? {
                 chosen = fewer;
             }
         }
-        chosen.sort_unstable();
         Ok((chosen.len() > 1).then_some(chosen))
     }
 

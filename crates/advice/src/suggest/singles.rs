@@ -58,7 +58,7 @@ impl Search<'_> {
     }
 
     /// The two best pairs with one part, for images that are in none; and for two such images that are a
-    /// pair the best pair of each with one part, of different images there as far as there are any.
+    /// pair the best pair of each with one part, and one of different images there if there is any.
     pub(super) fn twice(&self, best: &[Candidate]) -> Vec<Vec<Pair>> {
         let mut by_gap: BTreeMap<Pair, Vec<Pair>> = BTreeMap::new();
         for &Candidate { pair: (a, b), .. } in best {
@@ -77,7 +77,11 @@ impl Search<'_> {
                     continue;
                 };
                 let other = of_y.iter().find(|other| apart(&of_x[0], other));
-                sets.push(vec![of_x[0], *other.unwrap_or(&of_y[0])]);
+                let mut set = vec![of_x[0], of_y[0]];
+                set.extend(other);
+                set.sort_unstable();
+                set.dedup();
+                sets.push(set);
             }
         }
         let two = by_gap.into_values().filter_map(|mut pairs| {

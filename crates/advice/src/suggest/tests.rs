@@ -28,7 +28,7 @@ fn suggested(
 }
 
 /// The whole graph with the pairs is decided for each suggestion; a set of several is one of which
-/// none can be left out.
+/// none but the first can be left out.
 #[test]
 fn suggestions_are_true() {
     let (mut single, mut several) = (0, 0);
@@ -46,7 +46,8 @@ fn suggestions_are_true() {
                     [_] => single += 1,
                     _ => several += 1,
                 }
-                for k in 0..pairs.len() {
+                // The first of a set is named because it is the most promising.
+                for k in usize::from(pairs.len() > 1)..pairs.len() {
                     let mut fewer = pairs.clone();
                     let gone = fewer.remove(k);
                     let images = images_at(&with(&graph, fewer), model, gone);
@@ -234,7 +235,7 @@ fn near_ones_come_first_and_failures_cost() {
     for count in 0..6 {
         let best = first(&failed);
         assert_eq!(best.tried, Tried::Not);
-        assert!(count > 0 || best.cost == 10, "{best:?}");
+        assert!(count > 0 || best.cost == 2, "{best:?}");
         assert!(
             failed.iter().all(|pair| pair.images != best.pair),
             "{best:?}"
@@ -273,5 +274,5 @@ fn pairs_anywhere_may_close_a_ring() {
     let found = suggested(&graph, Model::Calibrated, &others, None);
     let pairs: Vec<_> = found[0].pairs.iter().map(|&(pair, _)| pair).collect();
     assert_eq!((pairs, found[0].images), (hopeful.to_vec(), 11));
-    assert!(found.iter().skip(1).all(Suggestion::has_failed));
+    assert_eq!(found.len(), 1, "what was tried in vain is not named");
 }

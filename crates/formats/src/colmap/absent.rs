@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{DatabaseError, TwoViews};
+use super::{DatabaseError, FeatureTracks, TwoViews};
 use crate::error::Place;
 use crate::{NamedGraph, ReadError, ReadOptions, TrackOptions};
 
@@ -37,6 +37,14 @@ impl Database {
     /// # Errors
     /// None.
     pub fn tracks(&self, _: TrackOptions) -> Result<NamedGraph, ReadError> {
+        match *self {}
+    }
+
+    /// Which features are the same point.
+    ///
+    /// # Errors
+    /// None.
+    pub fn feature_tracks(&self) -> Result<FeatureTracks, ReadError> {
         match *self {}
     }
 

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::open::Opened;
 use super::pairs::{Tables, of_cameras};
-use super::{DatabaseError, DatabaseFacts, Views, positions, rigs, tracks};
+use super::{DatabaseError, DatabaseFacts, FeatureTracks, Views, positions, rigs, tracks};
 use crate::error::{Fault, Place};
 use crate::{Matching, NamedGraph, ReadAs, ReadError, ReadOptions, TrackOptions};
 use viewcert::graph::{Graph, Labels};
@@ -124,6 +124,23 @@ impl Database {
             }),
             ..graph
         })
+    }
+
+    /// Which features are the same point, by the matches of these pairs.
+    ///
+    /// # Errors
+    /// See [`DatabaseError`].
+    pub fn feature_tracks(&self) -> Result<FeatureTracks, ReadError> {
+        let fault = |problem| Place::Input.fault(problem).in_file(&self.name);
+        self.opened.wake().map_err(|error| fault(error.into()))?;
+        let Tables {
+            names,
+            nodes,
+            table,
+            ..
+        } = &self.tables;
+        let connection = &self.opened.connection;
+        tracks::of_features(connection, table, names, nodes, &self.pairs).map_err(fault)
     }
 
     /// The geometry of its pairs, to be asked for one by one. O(images).

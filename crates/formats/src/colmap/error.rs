@@ -140,7 +140,7 @@ impl DatabaseError {
             }
             Self::NameNotUtf8(_) | Self::NameTwice(_) => "rename the image",
             Self::NoLists(_) => {
-                "tracks need the lists: give the database as the matching left it, or decide its pairs without --tracks"
+                "tracks need the lists: give the database as the matching left it, or decide its pairs, without --tracks (of export: --model projective)"
             }
             Self::NoTracks(0) => {
                 "ask for fewer inliers (--min-inliers; in COLMAP --Mapper.min_num_matches and --GlobalMapper.min_num_matches), or decide its pairs without --tracks"

@@ -94,9 +94,14 @@ impl<'a> Keypoints<'a> {
         })
     }
 
+    /// How many features an image has, as far as is known.
+    pub(super) fn count(&self, node: u32) -> Option<u32> {
+        self.counts[node as usize]
+    }
+
     /// Whether an image has a feature of this number, as far as is known.
     pub(super) fn has(&self, node: u32, feature: u32) -> bool {
-        self.counts[node as usize].is_none_or(|count| feature < count)
+        self.count(node).is_none_or(|count| feature < count)
     }
 
     /// What could not be known, in words.

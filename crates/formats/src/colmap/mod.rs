@@ -99,6 +99,18 @@ pub(crate) enum Focal {
     Spherical,
 }
 
+/// Which features of the images of a database are the same point, by the names of the images.
+pub type FeatureTracks = HashMap<Box<str>, ImageTracks>;
+
+/// The features of an image.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ImageTracks {
+    /// How many there are, if the database says so.
+    pub features: Option<u32>,
+    /// The track of every feature that has one.
+    pub tracks: Vec<Option<u32>>,
+}
+
 /// What a database knows of focal lengths.
 pub(crate) struct FocalLengths {
     /// By the name of an image, the `camera_id` of what took it.
@@ -109,7 +121,7 @@ pub(crate) struct FocalLengths {
 
 /// Whether a file is an SQLite database, by what it begins with; one that cannot be read is none. What
 /// comes through a pipe can be read once only, and is left to who reads it.
-pub(crate) fn is_database(path: &Path) -> bool {
+pub fn is_database(path: &Path) -> bool {
     if !path.is_file() {
         return false;
     }

@@ -5,10 +5,10 @@ use std::collections::HashMap;
 use rusqlite::Connection;
 use rusqlite::types::ValueRef;
 
-use super::DatabaseError;
 use super::doubles::doubles;
 use super::keypoints::Keypoints;
 use super::tables::{NoPair, PAIR_FACTOR, columns, ends};
+use super::{DatabaseError, FeatureTracks, ImageTracks};
 use crate::NamedGraph;
 use crate::error::{Fault, Place, Problem};
 use crate::tracks::{Frames, Joined, TrackGraph, TrackOptions};
@@ -56,6 +56,28 @@ pub(super) fn read(
     })?;
     graph.notes.extend(beyond.into_iter().chain(unknown));
     Ok(graph)
+}
+
+/// Which features are the same point by the pairs that are edges of `pairs`. Linear in the matches, but
+/// for nearly constant factors.
+///
+/// # Errors
+/// As of [`read`].
+pub(super) fn of_features(
+    connection: &Connection,
+    table: &str,
+    names: &[Box<str>],
+    nodes: &HashMap<i64, u32>,
+    pairs: &Graph,
+) -> Result<FeatureTracks, Problem> {
+    let keypoints = Keypoints::new(connection, names, nodes, 0)?;
+    let (joined, _) = join(connection, table, names, nodes, pairs, &keypoints)?;
+    let images = (0..).zip(names).zip(joined.of_features());
+    let images = images.map(|((node, name), tracks)| {
+        let features = keypoints.count(node);
+        (name.clone(), ImageTracks { features, tracks })
+    });
+    Ok(images.collect())
 }
 
 /// Reads the lists of all pairs that are used. Matches of features that their image does not have

@@ -286,6 +286,54 @@ impl Model {
         self.images.iter().map(image).collect()
     }
 
+    /// The poses once more, in floating point.
+    ///
+    /// # Errors
+    /// The first image whose numbers are no pose, with its file.
+    pub fn measured_poses(&self) -> Result<Vec<[f64; 7]>, String> {
+        let is_pose = |pose: &[f64; 7]| pose[..4].iter().any(|&x| x != 0.0);
+        let image = |image: &Image| {
+            let pose = self.numbers(&image.pose).filter(is_pose);
+            pose.ok_or_else(|| {
+                let (file, name) = (file_name(IMAGES, self.encoding), &image.name);
+                format!(
+                    "{file}: the pose of image {name} is no rotation and place in finite numbers"
+                )
+            })
+        };
+        self.images.iter().map(image).collect()
+    }
+
+    /// The places of the points, in floating point.
+    ///
+    /// # Errors
+    /// The first point whose numbers are no place, with its file.
+    pub fn measured_points(&self) -> Result<Vec<[f64; 3]>, String> {
+        let point = |point: &Point| {
+            self.numbers(&point.place).ok_or_else(|| {
+                let (file, id) = (file_name(POINTS, self.encoding), point.id);
+                format!("{file}: the place of point {id} is not in finite numbers")
+            })
+        };
+        self.points.iter().map(point).collect()
+    }
+
+    /// The first numbers of a record, if they are finite.
+    fn numbers<const N: usize>(&self, record: &[u8]) -> Option<[f64; N]> {
+        let numbers: Vec<f64> = match self.encoding {
+            Encoding::Binary => {
+                let (numbers, _) = record.as_chunks::<8>();
+                numbers.iter().copied().map(f64::from_le_bytes).collect()
+            }
+            Encoding::Text => {
+                let words = std::str::from_utf8(record).ok()?.split(' ');
+                words.map_while(|word| word.parse().ok()).collect()
+            }
+        };
+        let numbers = numbers.first_chunk::<N>().copied();
+        numbers.filter(|all| all.iter().all(|x| x.is_finite()))
+    }
+
     /// The names of the files that [`write`](Self::write) makes.
     pub fn files(&self) -> Vec<String> {
         let always = [Some(CAMERAS), Some(IMAGES), Some(POINTS)].into_iter();

@@ -110,6 +110,16 @@ impl Joined {
         Ok(())
     }
 
+    /// Of every image and feature the track that it is in.
+    pub(crate) fn of_features(self) -> Vec<Vec<Option<u32>>> {
+        let Self { features, mut sets } = self;
+        let mut track = |element: u32| Some(sets.find(element.checked_sub(1)? as usize) as u32);
+        let images = features.into_iter();
+        images
+            .map(|features| features.into_iter().map(&mut track).collect())
+            .collect()
+    }
+
     /// The features of an image that are in a track, increasing.
     fn features_of(&self, image: u32) -> impl Iterator<Item = u32> {
         let elements = (0u32..).zip(&self.features[image as usize]);

@@ -1,0 +1,163 @@
+//! The commands of docs/symptoms.md run, on a database of photographs that fall apart.
+
+use crate::common::{data, root};
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+/// Every command of the page: lines of code, and code within lines that names a file.
+fn commands() -> Vec<String> {
+    let page = fs::read_to_string(root().join("docs/symptoms.md")).unwrap();
+    let lines = page.lines().filter_map(|line| line.strip_prefix("    "));
+    let inline = page.split('`').skip(1).step_by(2);
+    let all = lines.chain(inline.filter(|code| code.contains('.') || code.contains('/')));
+    let mut all: Vec<String> = all
+        .filter(|code| code.starts_with("verify "))
+        .map(str::to_owned)
+        .collect();
+    all.sort();
+    all.dedup();
+    all
+}
+
+/// Runs a command of the page, whose words hold no blanks, in a folder.
+fn run(folder: &Path, command: &str, name: &str) -> Output {
+    let words = command.split(' ').skip(1);
+    let words = words.map(|word| if word == "NAME" { name } else { word });
+    let mut verify = Command::new(env!("CARGO_BIN_EXE_verify"));
+    verify.args(words).current_dir(folder).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// The database, in a folder, with the names and the numbers of features of its images.
+fn database(folder: &Path) -> Option<Vec<(String, u32)>> {
+    let source = data()?.join("colmap/suggest_stuck.db");
+    let path = folder.join("database.db");
+    fs::write(&path, fs::read(source).unwrap()).unwrap();
+    let database = rusqlite::Connection::open(path).unwrap();
+    let query = "select name, rows from images join keypoints using (image_id) order by name";
+    let mut rows = database.prepare(query).unwrap();
+    let rows = rows.query_map([], |row| Ok((row.get(0)?, row.get(1)?)));
+    Some(rows.unwrap().map(Result::unwrap).collect())
+}
+
+/// Writes a model of some images, each of which sees ten points.
+fn model(folder: &Path, images: &[(String, u32)]) {
+    fs::create_dir_all(folder).unwrap();
+    let (mut list, mut tracks) = (String::new(), vec![String::new(); 10]);
+    for (id, (name, features)) in (1..).zip(images) {
+        let seen = (0..*features).map(|k| if k < 10 { i64::from(k) + 1 } else { -1 });
+        let seen: Vec<String> = seen.map(|point| format!("1 2 {point}")).collect();
+        list += &format!("{id} 1 0 0 0 {id} 0 0 1 {name}\n{}\n", seen.join(" "));
+        for (k, track) in tracks.iter_mut().enumerate() {
+            *track += &format!(" {id} {k}");
+        }
+    }
+    let points = (1..).zip(tracks);
+    let points =
+        points.map(|(id, track)| format!("{id} {id} {} 9 9 9 9 0.5{track}\n", id * id % 7));
+    fs::write(folder.join("cameras.txt"), "1 PINHOLE 9 9 8 8 4 4\n").unwrap();
+    fs::write(folder.join("images.txt"), list).unwrap();
+    fs::write(folder.join("points3D.txt"), points.collect::<String>()).unwrap();
+}
+
+#[test]
+fn every_command_of_the_page_answers() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let Some(images) = database(at) else {
+        return;
+    };
+    model(&at.join("sparse/0"), &images[..8]);
+    model(&at.join("sparse/1"), &images[6..]);
+    fs::copy(root().join("examples/house.txt"), at.join("graph.txt")).unwrap();
+    let commands = commands();
+    let verbs = [
+        "overview", "advise", "export", "merge", "split", "models", "--tracks",
+    ];
+    for verb in verbs {
+        let has = |command: &String| command.split(' ').nth(1) == Some(verb);
+        assert!(commands.iter().any(has), "{verb}: {commands:?}");
+    }
+    for command in commands {
+        if command.contains(" audit ") && cfg!(not(feature = "studies")) {
+            continue;
+        }
+        fs::remove_dir_all(at.join("parts")).ok();
+        let found = run(at, &command, &images[0].0);
+        let code = found.status.code();
+        assert!(
+            matches!(code, Some(0 | 1)),
+            "{command}: {}",
+            text(&found.stderr)
+        );
+        let said = text(&found.stdout);
+        assert!(said.lines().count() > 3, "{command}: {said}");
+        assert!(!said.contains("database.db parts/ --"), "{command}: {said}");
+    }
+}
+
+/// Both mappers on the database; then lists by tracks give what mappers make of the whole, and the commands
+/// that `merge` ends with bring the models of incremental mapping together as global mapping has them.
+#[test]
+#[ignore = "needs pycolmap"]
+fn remedies_hold_against_both_mappers() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let Some(images) = database(at) else {
+        return;
+    };
+    let python = std::env::var_os("VIEWCERT_PYTHON").unwrap_or_else(|| "python3".into());
+    let sh = |command: &str| {
+        let command = command.replace("python3 -c ", "\"$PYTHON\" -c ");
+        let mut shell = Command::new("sh");
+        let shell = shell.args(["-c", &command]).env("PYTHON", &python);
+        let run = shell.current_dir(at).output().unwrap();
+        assert!(run.status.success(), "{command}: {}", text(&run.stderr));
+        text(&run.stdout)
+    };
+    let mapped = sh("mkdir images sparse whole && python3 -c 'import pycolmap
+options = pycolmap.IncrementalPipelineOptions()
+options.min_model_size, options.random_seed, options.num_threads = 3, 1, 1
+models = pycolmap.incremental_mapping(\"database.db\", \"images\", \"sparse\", options)
+options = pycolmap.GlobalPipelineOptions()
+options.random_seed, options.num_threads = 1, 1
+whole = pycolmap.global_mapping(\"database.db\", \"images\", \"whole\", options)
+print(*sorted(m.num_reg_images() for m in models.values()), *(m.num_reg_images() for m in whole.values()))'");
+    assert_eq!(mapped.lines().last(), Some("5 15 22"));
+    // One part of the tracks, with all images that global mapping places.
+    let exported = run(at, "verify export database.db parts", "");
+    assert_eq!(
+        exported.status.code(),
+        Some(1),
+        "{}",
+        text(&exported.stderr)
+    );
+    let list = fs::read_to_string(at.join("parts/components/001/images.txt")).unwrap();
+    assert_eq!(list.lines().count(), 22);
+    assert!(!at.join("parts/components/002").exists());
+    // Each model of incremental mapping fits the one of global mapping, and is brought to it.
+    for model in ["sparse/0", "sparse/1"] {
+        let found = run(at, &format!("verify merge {model} whole/0 --json"), "");
+        assert_eq!(found.status.code(), Some(0), "{}", text(&found.stderr));
+        let line: serde_json::Value = serde_json::from_slice(&found.stdout).unwrap();
+        assert_eq!(line["misfit"]["agree"], true);
+        let rows = serde_json::json!([line["misfit"]["similarity"]]).to_string();
+        let script = format!(
+            "python3 -c 'import json, numpy, pycolmap
+by = json.loads(\"\"\"{rows}\"\"\")[0]
+rows = numpy.hstack([by[\"scale\"] * numpy.array(by[\"rotation\"]), numpy.array(by[\"translation\"])[:, None]])
+one, other = pycolmap.Reconstruction(\"{model}\"), pycolmap.Reconstruction(\"whole/0\")
+one.transform(pycolmap.Sim3d(rows))
+places = {{i.name: i.projection_center() for i in other.images.values()}}
+spread = numpy.std(list(places.values()), axis=0).max()
+print(max(numpy.linalg.norm(i.projection_center() - places[i.name]) for i in one.images.values()) / spread)'"
+        );
+        let off: f64 = sh(&script).trim().parse().unwrap();
+        assert!(off < 0.05, "{model}: {off}");
+    }
+    assert_eq!(images.len(), 23);
+}
