@@ -8,8 +8,6 @@ use viewcert_advice::named::{
     Advice, Enough, Explain, Export, Joint, Photograph, Suggestion, Weak,
 };
 
-/// Length of the longest bar of a plot.
-
 /// Writes what was found.
 ///
 /// # Errors
