@@ -29,7 +29,7 @@ pub fn write(out: &mut impl Write, advice: &Advice) -> io::Result<()> {
         hints(out, found)?;
     }
     if let Some(found) = &advice.photograph {
-        photograph(out, found)?;
+        writeln!(out, "  photograph  {}", photograph(found))?;
     }
     if let Some(found) = &advice.explain {
         explain(out, found, advice.of_tracks)?;
@@ -212,17 +212,16 @@ fn hints(out: &mut impl Write, found: &[Suggestion]) -> io::Result<()> {
 }
 
 /// Where a photograph would help.
-fn photograph(out: &mut impl Write, found: &Photograph) -> io::Result<()> {
+pub(crate) fn photograph(found: &Photograph) -> String {
     let group = |images: &[String]| match images {
         [first, .., last] => format!("{first} to {last} ({})", counted(images.len(), "image")),
         _ => images.join(""),
     };
     let [one, other] = found.groups.each_ref().map(|images| group(images));
     let [a, b] = &found.between;
-    writeln!(
-        out,
-        "  photograph  take one between {one} and {other}; nearest to each other are {a} and {b}: all pairs that \
-         could join something were matched, and gave too little"
+    format!(
+        "take one between {one} and {other}; nearest to each other are {a} and {b}: all pairs that could join \
+         something were matched, and gave too little"
     )
 }
 

@@ -11,7 +11,7 @@ use super::tracks::TrackLine;
 use super::{
     Report, condition, counted, database, mappers, narrow, part_names, size_of, text, tracks,
 };
-use crate::advice::{joints as write_joints, suggestions as write_suggestions};
+use crate::advice::{joints as write_joints, photograph, suggestions as write_suggestions};
 use crate::assumptions::BaseLines;
 use crate::intrinsics::IntrinsicsLine;
 use serde::Serialize;
@@ -569,6 +569,10 @@ impl Overview<'_> {
 
     /// What to match, the first for each gap, and between which images nothing is left to match.
     fn write_suggested<W: Write>(&self, out: &mut W) -> io::Result<()> {
+        if self.facts().is_some_and(|facts| facts.pairs_used == 0) {
+            // What all mappers lack was said first.
+            return Ok(());
+        }
         let mut gaps: Vec<&[usize]> = Vec::new();
         let all = self.joints.suggestions.iter().flatten();
         let first = all.filter(|one| {
@@ -585,61 +589,10 @@ impl Overview<'_> {
             )?;
             write_suggestions(out, first)?;
         }
-        for words in self.photographs() {
-            wrapped(out, "photograph", &words)?;
+        match &self.joints.photograph {
+            Some(found) => wrapped(out, "photograph", &photograph(found)),
+            None => Ok(()),
         }
-        Ok(())
-    }
-
-    /// Between which groups of images all pairs were tried: parts, and single images in none.
-    fn photographs(&self) -> Vec<String> {
-        let (Some(parts), Some(report)) = (self.parts(), self.decisive()) else {
-            return Vec::new();
-        };
-        let input = report.input;
-        let Some(matching) = input.matching.as_ref().filter(|_| !parts.images.is_empty()) else {
-            return Vec::new();
-        };
-        let outside = self.in_no_part();
-        let singles = outside.chunks(1);
-        let groups: Vec<&[u32]> = parts
-            .images
-            .iter()
-            .map(Vec::as_slice)
-            .chain(singles)
-            .collect();
-        let is_tried = |a: u32, b: u32| {
-            let pair = (a.min(b), a.max(b));
-            let others = &matching.others;
-            let is_other = others
-                .binary_search_by_key(&pair, |other| other.images)
-                .is_ok();
-            a == b || is_other || input.graph.edge_number(pair.0, pair.1).is_some()
-        };
-        let named = |group: &[u32]| match group {
-            [image] => input.labels.display(*image).to_string(),
-            _ => format!(
-                "{} ... {} ({})",
-                input.labels.display(group[0]),
-                input.labels.display(group[group.len() - 1]),
-                counted(part_names::images(input, group), "image")
-            ),
-        };
-        let pairs = (0..groups.len().min(SHOWN)).flat_map(|k| (0..k).map(move |l| (l, k)));
-        let all_tried = pairs.filter(|&(one, other)| {
-            let each = groups[one].iter();
-            each.clone()
-                .all(|&a| groups[other].iter().all(|&b| is_tried(a, b)))
-        });
-        let words = all_tried.map(|(one, other)| {
-            format!(
-                "all pairs between {} and {} were matched, and too little came of it: take a photograph that \
-                 shows what both see",
-                named(groups[one]),
-                named(groups[other])
-            )
-        });
-        words.take(GAPS).collect()
     }
 
     /// Writes everything as one line of JSON.
