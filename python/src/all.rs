@@ -3,7 +3,7 @@
 use crate::decided::{Decided, Wanted};
 use crate::errors::of_deciding;
 use crate::graph::Graph;
-use crate::work::{self, Job, Told};
+use crate::work::{Job, Told};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -35,9 +35,8 @@ pub(crate) fn decide_all(
 ) -> PyResult<Vec<Py<PyAny>>> {
     let wanted = Arc::new(wanted);
     let inputs: Vec<Arc<NamedGraph>> = graphs.iter().map(|g| Arc::clone(&g.get().0)).collect();
-    let threads = work::threads_of(threads)?;
     let told = Told::expecting("graphs", inputs.len() as u64);
-    let job = Job::within(py, (time_limit, memory_limit), progress, told)?;
+    let job = Job::within(py, (time_limit, memory_limit), progress, told)?.on(threads)?;
     let (teller, stop, asked) = (job.told(), job.unobserved(), Arc::clone(&wanted));
     let decide = move |input: Arc<NamedGraph>| -> (Arc<NamedGraph>, Result<_, Problem>, Duration) {
         let start = Instant::now();
@@ -51,9 +50,8 @@ pub(crate) fn decide_all(
         teller.counted("graphs", 1);
         (input, decided, start.elapsed())
     };
-    let found: Vec<(_, Result<Verdict, _>, _)> = job.run(py, move || {
-        threads.install(|| inputs.into_par_iter().map(decide).collect())
-    })?;
+    let found: Vec<(_, Result<Verdict, _>, _)> =
+        job.run(py, move || inputs.into_par_iter().map(decide).collect())?;
     found
         .into_iter()
         .map(|(input, decided, time)| match decided {

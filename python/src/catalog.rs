@@ -31,6 +31,8 @@ type Batch = Result<Vec<CertifiedEntry>, VerdictError>;
 /// The entries of a size, decided while they are taken.
 #[pyclass(frozen, module = "viewcert._native")]
 pub(crate) struct Candidates {
+    /// Where they are decided.
+    process: u32,
     watch: Watch,
     entries: Mutex<Entries>,
 }
@@ -54,7 +56,8 @@ impl Candidates {
         prime: Option<u64>,
         seed: u64,
     ) -> PyResult<Self> {
-        let watch = Job::new(py)?.unobserved();
+        let job = Job::new(py)?;
+        let watch = job.unobserved();
         let effort = match solutions {
             true => CountSolutions::Quick,
             false => CountSolutions::Off,
@@ -69,21 +72,19 @@ impl Candidates {
             .watch(watch.clone());
         let edges = edges.unwrap_or_else(|| least_edges(nodes.max(2)));
         // What cannot be asked for is refused now and not by the first entry.
-        let graphs = py.detach(|| candidates(nodes, edges, &watch));
+        let stop = watch.clone();
+        let graphs = job.run(py, move || candidates(nodes, edges, &stop))?;
         let mut graphs = graphs.map_err(|error| of_any(&error.into()))?;
         if necessary && nodes > 3 {
             graphs.retain(|graph| !has_adjacent_nodes_of_degree_2(graph));
         }
-        let threads = work::threads()?;
         let (sender, batches) = sync_channel(AHEAD);
-        std::thread::Builder::new().spawn(move || {
+        work::aside(move || {
             let batches = graphs.chunks(BATCH);
-            send(
-                batches.map(|graphs| threads.install(|| entries(graphs, &options))),
-                &sender,
-            );
+            send(batches.map(|graphs| entries(graphs, &options)), &sender);
         })?;
         Ok(Self {
+            process: std::process::id(),
             watch,
             entries: Mutex::new(Entries {
                 batches,
@@ -101,8 +102,13 @@ impl Candidates {
         &self,
         py: Python<'py>,
     ) -> PyResult<Option<([String; COLUMNS.len()], Bound<'py, PyBytes>)>> {
+        if self.process != std::process::id() {
+            return Err(InputError::new_err(
+                "these entries are decided in the process that forked this one: begin with viewcert.catalog here",
+            ));
+        }
         loop {
-            match py.detach(|| self.next()) {
+            match work::beside(py, || self.next()) {
                 Next::Entry(entry, certificate) => {
                     return Ok(Some((entry.cells(), PyBytes::new(py, &certificate))));
                 }
@@ -168,9 +174,12 @@ fn entries(graphs: &[Graph], options: &Options) -> Batch {
 
 /// The label of a graph, and the greatest line of graph6 of its relabellings; nothing if it has too many nodes.
 #[pyfunction]
-pub(crate) fn label(py: Python<'_>, graph: &crate::graph::Graph) -> Option<(String, String)> {
+pub(crate) fn label(
+    py: Python<'_>,
+    graph: &crate::graph::Graph,
+) -> PyResult<Option<(String, String)>> {
     let graph = graph.0.clone();
-    py.detach(|| {
+    work::briefly(py, || {
         let line = graph6::encode(&greatest(&graph.graph)?);
         Some((Label::of(&graph.graph)?.to_string(), line))
     })
@@ -178,8 +187,10 @@ pub(crate) fn label(py: Python<'_>, graph: &crate::graph::Graph) -> Option<(Stri
 
 /// The graph of a label, as a line of graph6.
 #[pyfunction]
-pub(crate) fn label_graph6(label: &str) -> PyResult<String> {
-    let parsed: Result<Label, _> = label.parse();
-    let parsed = parsed.map_err(|error| InputError::new_err(format!("{label}: {error}")))?;
-    Ok(graph6::encode(&parsed.graph()))
+pub(crate) fn label_graph6(py: Python<'_>, label: &str) -> PyResult<String> {
+    let parsed = work::briefly(py, || {
+        let parsed: Label = label.parse()?;
+        Ok::<_, <Label as std::str::FromStr>::Err>(graph6::encode(&parsed.graph()))
+    })?;
+    parsed.map_err(|error| InputError::new_err(format!("{label}: {error}")))
 }

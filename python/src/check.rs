@@ -3,7 +3,7 @@
 use crate::decided::{known_displacements, of_words};
 use crate::errors::{InputError, Rejected, of_any, of_checking};
 use crate::graph::Graph;
-use crate::work::{self, Job};
+use crate::work::Job;
 use anyhow::Context;
 use pyo3::prelude::*;
 use std::path::{Path, PathBuf};
@@ -174,7 +174,6 @@ pub(crate) fn check(
         return Err(Rejected::new_err(("", no_certificate(false))));
     }
     let limits = limits(max_operations);
-    let threads = work::threads()?;
     let checked = Job::new(py)?.run(py, move || {
         let certificate = Certificate::parse(&certificate).map_err(Problem::Failure)?;
         let graph = match given {
@@ -196,7 +195,7 @@ pub(crate) fn check(
                 Some(graph.map_err(Problem::File)?)
             }
         };
-        let checked = threads.install(|| certificate.check_within(graph.as_ref(), &limits));
+        let checked = certificate.check_within(graph.as_ref(), &limits);
         checked.map_err(Problem::Failure)
     })?;
     checked.map(Into::into).map_err(Problem::raised)
@@ -261,11 +260,9 @@ pub(crate) fn checked<T: Send + 'static>(
 ) -> PyResult<T> {
     let input = graph.map(|graph| Arc::clone(&graph.0));
     let limits = limits(max_operations);
-    let threads = work::threads()?;
     let checked = Job::new(py)?.run(py, move || {
         let graph = input.map(|input| for_checker(&input)).transpose()?;
-        let checked = threads.install(|| check(graph.as_ref(), &limits));
-        checked.map_err(Problem::Failure)
+        check(graph.as_ref(), &limits).map_err(Problem::Failure)
     })?;
     checked.map_err(Problem::raised)
 }

@@ -1,6 +1,6 @@
 //! Verdicts.
 
-use crate::errors::{InputError, of_any, of_deciding};
+use crate::errors::{FileError, InputError, of_any, of_deciding};
 use crate::graph::Graph;
 use crate::work::{self, Job, Told};
 use numpy::{IntoPyArray, PyArray1};
@@ -254,11 +254,9 @@ pub(crate) fn decide(
     let known = with_rigs(known, &input).map_err(|error| wrong(&error))?;
     let options = wanted.options(known, job.watch());
     let options = options.map_err(|why| wrong(&why))?;
-    let (decided, threads) = (Arc::clone(&input), work::threads()?);
+    let asked = Arc::clone(&input);
     let start = Instant::now();
-    let decided = job.run(py, move || {
-        threads.install(|| viewcert::decide(&decided.graph, &options))
-    })?;
+    let decided = job.run(py, move || viewcert::decide(&asked.graph, &options))?;
     let verdict = decided.map_err(|error| of_deciding(&error))?;
     Ok(Decided::new(input, verdict, &wanted, start.elapsed()))
 }
@@ -356,16 +354,16 @@ impl Decided {
     fn components<'py>(
         &self,
         py: Python<'py>,
-    ) -> (Bound<'py, PyArray1<u32>>, Bound<'py, PyArray1<u64>>) {
-        let (nodes, ends) = py.detach(|| {
+    ) -> PyResult<(Bound<'py, PyArray1<u32>>, Bound<'py, PyArray1<u64>>)> {
+        let (nodes, ends) = work::briefly(py, || {
             let (mut nodes, mut ends) = (Vec::new(), Vec::new());
             for component in &self.verdict.components {
                 nodes.extend(component.nodes());
                 ends.push(nodes.len() as u64);
             }
             (nodes, ends)
-        });
-        (nodes.into_pyarray(py), ends.into_pyarray(py))
+        })?;
+        Ok((nodes.into_pyarray(py), ends.into_pyarray(py)))
     }
 
     /// How many components there are.
@@ -383,11 +381,11 @@ impl Decided {
     ) -> PyResult<Bound<'py, PyBytes>> {
         let job = Job::new(py)?;
         let (input, verdict) = (Arc::clone(&self.input), Arc::clone(&self.verdict));
-        let (threads, stop) = (work::threads()?, job.watch());
+        let stop = job.watch();
         let asked = move || assumptions::base_lines(&input, &verdict, &stop);
-        let base_lines = job.run(py, move || threads.install(asked))?;
+        let base_lines = job.run(py, asked)?;
         let base_lines = base_lines.map_err(|stopped| of_any(&stopped.into()))?;
-        let written = py.detach(|| -> std::io::Result<Vec<u8>> {
+        let written = work::briefly(py, || -> std::io::Result<Vec<u8>> {
             let certificate = self.verdict.certificate(&self.input.graph);
             let mut certificate = certificate.named(&self.input.name);
             if let Some((_, found)) = &base_lines {
@@ -400,7 +398,7 @@ impl Decided {
             let mut bytes = Vec::new();
             certificate.write_to(&mut bytes)?;
             Ok(bytes)
-        });
+        })?;
         Ok(PyBytes::new(py, &written?))
     }
 
@@ -416,9 +414,9 @@ impl Decided {
         let sensors = Sensors::new(sensors, self.classes(&classes)?);
         let job = Job::new(py)?;
         let (input, verdict) = (Arc::clone(&self.input), Arc::clone(&self.verdict));
-        let (threads, stop, seed) = (work::threads()?, job.watch(), self.seed);
+        let (stop, seed) = (job.watch(), self.seed);
         let asked = move || Certified::new(&input.graph, &verdict, &sensors, seed, &stop);
-        let found = job.run(py, move || threads.install(asked))?;
+        let found = job.run(py, asked)?;
         let found = found.map_err(|stopped| of_any(&stopped.into()))?;
         let none = || InputError::new_err("a graph without pairs has no certificate of intrinsics");
         let found = found.ok_or_else(none)?;
@@ -479,7 +477,7 @@ impl Decided {
         let ((asked, rational, time), seed) = (self.asked(), self.seed);
         let job = Job::new(py)?;
         let (input, verdict) = self.answer();
-        let (threads, kind, stop) = (work::threads()?, kind.to_owned(), job.watch());
+        let (kind, stop) = (kind.to_owned(), job.watch());
         let answer = move || -> anyhow::Result<Vec<u8>> {
             request.check(&[], &[])?;
             let mut scope = Scope::new(&input, &verdict, asked, &stop)?;
@@ -512,7 +510,7 @@ impl Decided {
             };
             written(&report, &kind)
         };
-        bytes_of(py, &job, move || threads.install(answer))
+        bytes_of(py, &job, answer)
     }
 
     /// The graph with its components in colours, as SVG.
@@ -526,6 +524,6 @@ impl Decided {
     fn write(path: PathBuf, bytes: &[u8]) -> PyResult<()> {
         Outputs::default()
             .write(&path, |out| out.write_all(bytes))
-            .map_err(|error| pyo3::exceptions::PyOSError::new_err(format!("{error:#}")))
+            .map_err(|error| FileError::new_err(format!("{error:#}")))
     }
 }

@@ -7,6 +7,7 @@ use viewcert::watch::{Reason, Stopped};
 use viewcert_check::{Failure, Rejection, TooLarge as TooLargeToCheck};
 use viewcert_formats::ReadError;
 
+pyo3::import_exception!(viewcert._errors, FileError);
 pyo3::import_exception!(viewcert._errors, InputError);
 pyo3::import_exception!(viewcert._errors, Rejected);
 pyo3::import_exception!(viewcert._errors, TooLarge);

@@ -4,7 +4,7 @@
 use crate::decided::bytes_of;
 use crate::errors::of_any;
 use crate::graph::{list_options, read_options};
-use crate::work::{self, Job};
+use crate::work::Job;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::collections::BTreeMap;
@@ -73,7 +73,7 @@ pub(crate) fn overview<'py>(
         of_tracks,
         says_views: reading.min_views.is_some(),
     };
-    let (job, threads) = (Job::new(py)?, work::threads()?);
+    let job = Job::new(py)?;
     let session = Session::under(job.watch());
     let work = move || {
         let mut out = Vec::new();
@@ -87,7 +87,7 @@ pub(crate) fn overview<'py>(
         })?;
         Ok(out)
     };
-    bytes_of(py, &job, move || threads.install(work))
+    bytes_of(py, &job, work)
 }
 
 /// What lists of images determine, and what their overlaps fix, as JSON and as text.
@@ -100,7 +100,7 @@ pub(crate) fn lists(
 ) -> PyResult<(String, String)> {
     let [options, of_tracks] = reading.options()?;
     let says_views = reading.min_views.is_some();
-    let (job, threads) = (Job::new(py)?, work::threads()?);
+    let job = Job::new(py)?;
     let session = Session::under(job.watch());
     let work = move || -> anyhow::Result<(String, String)> {
         let asked = ListsAsked {
@@ -117,7 +117,7 @@ pub(crate) fn lists(
         })?;
         Ok((String::from_utf8(json)?, String::from_utf8(text)?))
     };
-    let found = job.run(py, move || threads.install(work))?;
+    let found = job.run(py, work)?;
     found.map_err(|error| of_any(&error))
 }
 
@@ -176,7 +176,7 @@ pub(crate) struct Archive {
 /// Verifies all certificates of a file or folder.
 #[pyfunction]
 pub(crate) fn check_all(py: Python<'_>, path: PathBuf) -> PyResult<Archive> {
-    let (job, threads) = (Job::new(py)?, work::threads()?);
+    let job = Job::new(py)?;
     let (teller, stop) = (job.told(), job.unobserved());
     let work = move || -> anyhow::Result<Archive> {
         let listing = Listing::new(&path)?;
@@ -221,6 +221,6 @@ pub(crate) fn check_all(py: Python<'_>, path: PathBuf) -> PyResult<Archive> {
             skipped: skipped.collect(),
         })
     };
-    let found = job.run(py, move || threads.install(work))?;
+    let found = job.run(py, work)?;
     found.map_err(|error| of_any(&error))
 }

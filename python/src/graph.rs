@@ -15,10 +15,6 @@ use viewcert_formats::{
     ListOptions, NamedGraph, ReadError, ReadOptions, TrackOptions, pairs, read_graphs,
 };
 
-/// So many pairs are a graph in a millisecond: nobody interrupts that, and a thread of its own would
-/// take as long.
-const AT_ONCE: usize = 10_000;
-
 /// A graph with its labels and notes.
 #[pyclass(frozen, module = "viewcert._native")]
 pub(crate) struct Graph(pub(crate) Arc<NamedGraph>);
@@ -75,8 +71,8 @@ impl Graph {
     }
 
     /// SHA-256 of the canonical form.
-    fn sha256(&self, py: Python<'_>) -> String {
-        py.detach(|| hex(&sha256(&self.0.graph)))
+    fn sha256(&self, py: Python<'_>) -> PyResult<String> {
+        work::briefly(py, || hex(&sha256(&self.0.graph)))
     }
 
     /// The labels in the order of the nodes: integers, or texts.
@@ -120,16 +116,11 @@ pub(crate) fn graph_of_integers(
     } else {
         integers::<u32>(py, &pairs.extract()?)
     }?;
-    let small = pairs.len()? <= AT_ONCE;
     let build = move || match found {
         Integers::Short(found) => pairs::of_integers(&name, found),
         Integers::Long(found) => pairs::of_long_integers(&name, &found),
     };
-    graph(if small {
-        py.detach(build)
-    } else {
-        work::run(py, build)?
-    })
+    graph(work::run(py, build)?)
 }
 
 enum Integers {
@@ -143,7 +134,7 @@ where
     T: Element + Copy + Send + Sync + std::fmt::Display + TryInto<u32> + TryInto<u64>,
 {
     let view = pairs.as_array();
-    py.detach(|| {
+    let found = work::briefly(py, || {
         if let Some(pairs) = all(&view) {
             return Ok(Integers::Short(pairs));
         }
@@ -156,8 +147,8 @@ where
             .into_iter()
             .position(|row| row.iter().any(negative));
         Err(row.unwrap_or(0))
-    })
-    .map_err(|row| {
+    })?;
+    found.map_err(|row| {
         let (a, b) = (view[[row, 0]], view[[row, 1]]);
         InputError::new_err(format!(
             "row {row} of the pairs is ({a}, {b}): the numbers of images are not negative; leave \
@@ -215,7 +206,7 @@ pub(crate) fn graph_of_nodes(
         )));
     }
     let view = pairs.as_array();
-    let found = py.detach(|| all(&view)).unwrap_or_default();
+    let found = work::briefly(py, || all(&view))?.unwrap_or_default();
     if let Some(given) = inliers.as_ref().map(Vec::len)
         && given != found.len()
     {
@@ -224,16 +215,11 @@ pub(crate) fn graph_of_nodes(
             found.len()
         )));
     }
-    let small = found.len() <= AT_ONCE;
     let build = move || match inliers {
         None => pairs::of_nodes(&name, nodes, labels, found),
         Some(inliers) => pairs::with_inliers(&name, nodes, labels, found, &inliers, min_inliers),
     };
-    graph(if small {
-        py.detach(build)
-    } else {
-        work::run(py, build)?
-    })
+    graph(work::run(py, build)?)
 }
 
 fn graph(built: Result<NamedGraph, ReadError>) -> PyResult<Graph> {
@@ -243,16 +229,17 @@ fn graph(built: Result<NamedGraph, ReadError>) -> PyResult<Graph> {
     }
 }
 
-/// The graphs of a file.
+/// The graphs of a file, with another name for it where it is there for a moment only.
 #[pyfunction]
 #[pyo3(signature = (
-    path, *, format=None, variable=None, pipeline=None, min_inliers=None, min_views=None,
+    path, *, name=None, format=None, variable=None, pipeline=None, min_inliers=None, min_views=None,
     max_spread=None, rigs=true, columns=None, min_weight=None, skip_loops=false
 ))]
 #[expect(clippy::too_many_arguments, reason = "keyword arguments of Python")]
 pub(crate) fn read(
     py: Python<'_>,
     path: PathBuf,
+    name: Option<String>,
     format: Option<&str>,
     variable: Option<String>,
     pipeline: Option<&str>,
@@ -276,14 +263,20 @@ pub(crate) fn read(
             rigs,
         )?
     };
+    let shown = path.display().to_string();
+    let called = |mut graph: NamedGraph| {
+        if let Some(name) = &name {
+            for text in graph.notes.iter_mut().chain([&mut graph.name]) {
+                *text = text.replace(&shown, name);
+            }
+        }
+        Graph(Arc::new(graph))
+    };
     let read = Job::new(py)?.run(py, move || {
         read_graphs(path, &options).collect::<Result<Vec<_>, _>>()
     })?;
     match read {
-        Ok(graphs) => Ok(graphs
-            .into_iter()
-            .map(|graph| Graph(Arc::new(graph)))
-            .collect()),
+        Ok(graphs) => Ok(graphs.into_iter().map(called).collect()),
         Err(error) => Err(of_reading(&error)),
     }
 }

@@ -4,7 +4,7 @@ use crate::check::{checked, of_strength};
 use crate::decided::{Decided, bytes_of, written};
 use crate::errors::{InputError, Rejected, of_any, of_deciding, of_reading};
 use crate::graph::Graph;
-use crate::work::{self, Job};
+use crate::work::Job;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::path::PathBuf;
@@ -143,10 +143,10 @@ impl AtCameras {
             ));
         }
         let (centres, job) = (Arc::clone(&cameras.centres), Job::new(py)?);
-        let (threads, at, stop) = (work::threads()?, Arc::clone(&centres), job.watch());
+        let (at, stop) = (Arc::clone(&centres), job.watch());
         let graph = Arc::clone(&input);
         let asked = move || here(&graph.graph, &at, &stop);
-        let found = job.run(py, move || threads.install(asked))?;
+        let found = job.run(py, asked)?;
         let here = found.map_err(|error| match error {
             HereError::Centre(error) => {
                 InputError::new_err(format!("cameras: {}", centre_error(error, &input)))
@@ -172,9 +172,8 @@ impl AtCameras {
     fn velocities(&self, py: Python<'_>) -> PyResult<Option<Vec<Vec<Option<Velocity>>>>> {
         let job = Job::new(py)?;
         let (here, centres, stop) = (self.here.clone(), self.centres.clone(), job.watch());
-        let threads = work::threads()?;
         let asked = move || here.basis_of_motions(&centres, &stop);
-        let found = job.run(py, move || threads.install(asked))?;
+        let found = job.run(py, asked)?;
         let found = found.map_err(|stopped| of_any(&stopped.into()))?;
         let texts = |velocity: &Option<[Rational; 3]>| {
             velocity
@@ -217,7 +216,7 @@ impl AtCameras {
         let (asked, rational, time) = decided.asked();
         let (here, centres) = (self.here.clone(), self.centres.clone());
         let job = Job::new(py)?;
-        let (threads, kind, stop) = (work::threads()?, kind.to_owned(), job.watch());
+        let (kind, stop) = (kind.to_owned(), job.watch());
         let answer = move || -> anyhow::Result<Vec<u8>> {
             let motions = match &kind[..] {
                 "html" => here.basis_of_motions(&centres, &stop)?.unwrap_or_default(),
@@ -242,7 +241,7 @@ impl AtCameras {
             };
             written(&report, &kind)
         };
-        bytes_of(py, &job, move || threads.install(answer))
+        bytes_of(py, &job, answer)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::errors::InputError;
 use crate::graph::Graph;
+use crate::work;
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -38,6 +39,7 @@ pub(crate) fn about_graph(graph: &Graph) -> PyResult<(Kind, String)> {
 /// The graph that was kept.
 #[pyfunction]
 pub(crate) fn graph_kept(
+    py: Python<'_>,
     name: String,
     nodes: u32,
     pairs: PyReadonlyArray2<'_, u32>,
@@ -63,7 +65,8 @@ pub(crate) fn graph_kept(
     }
     let view = pairs.as_array();
     let rows = view.rows().into_iter().map(|row| (row[0], row[1]));
-    let graph = Pairs::new(nodes, rows).map_err(|error| wrong(&error))?;
+    let rows: Vec<(u32, u32)> = rows.collect();
+    let graph = work::briefly(py, || Pairs::new(nodes, rows))?.map_err(|error| wrong(&error))?;
     match kept::with_about(name.clone(), graph, labels, about) {
         Ok(input) => Ok(Graph(Arc::new(input))),
         Err(error) => Err(wrong(&error)),
@@ -72,9 +75,9 @@ pub(crate) fn graph_kept(
 
 /// Whether two graphs are one: pairs, cameras, and what frames say of these.
 #[pyfunction]
-pub(crate) fn same_graph(py: Python<'_>, one: &Graph, other: &Graph) -> bool {
+pub(crate) fn same_graph(py: Python<'_>, one: &Graph, other: &Graph) -> PyResult<bool> {
     let (one, other) = (&one.0, &other.0);
-    py.detach(|| {
+    work::briefly(py, || {
         one.graph == other.graph && one.cameras == other.cameras && one.frames == other.frames
     })
 }

@@ -57,6 +57,7 @@ mod _native {
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        work::no_global_threads();
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::errors::InputError;
 use crate::graph::Graph;
-use crate::work::{self, Job};
+use crate::work::Job;
 use pyo3::prelude::*;
 use std::sync::Arc;
 use viewcert::geometry::camera::{Camera, centre};
@@ -153,7 +153,6 @@ pub(crate) fn rigidity_matrix(
         }
         Ok((places, values, [rows.len(), columns]))
     };
-    let (job, threads) = (Job::new(py)?, work::threads()?);
-    let found: Result<_, String> = job.run(py, move || threads.install(work))?;
+    let found: Result<_, String> = Job::new(py)?.run(py, work)?;
     found.map_err(InputError::new_err)
 }

@@ -103,25 +103,22 @@ pub(crate) fn component_of_pairs<'py>(
     let input = Arc::clone(&graph.0);
     let (members, ends) = (members.as_array().to_vec(), ends.as_array().to_vec());
     let asked: Option<Vec<(u32, u32)>> = pairs.and_then(|pairs| all(&pairs.as_array()));
-    let threads = work::threads()?;
     let found = work::run(py, move || {
-        threads.install(|| {
-            let nodes = input.graph.nodes();
-            let holders = Holders::new(nodes, &members, &ends);
-            let place = |&(a, b): &(u32, u32)| holders.both(a, b).unwrap_or(-1);
-            match asked {
-                None => Ok(input.graph.edges().par_iter().map(place).collect()),
-                Some(asked) => {
-                    let rows = Rows::new(&input.graph);
-                    let place = |(row, pair)| match rows.has(pair) {
-                        true => Ok(place(pair)),
-                        false => Err(row),
-                    };
-                    let asked = asked.par_iter().enumerate();
-                    asked.map(place).collect::<Result<Vec<i32>, usize>>()
-                }
+        let nodes = input.graph.nodes();
+        let holders = Holders::new(nodes, &members, &ends);
+        let place = |&(a, b): &(u32, u32)| holders.both(a, b).unwrap_or(-1);
+        match asked {
+            None => Ok(input.graph.edges().par_iter().map(place).collect()),
+            Some(asked) => {
+                let rows = Rows::new(&input.graph);
+                let place = |(row, pair)| match rows.has(pair) {
+                    true => Ok(place(pair)),
+                    false => Err(row),
+                };
+                let asked = asked.par_iter().enumerate();
+                asked.map(place).collect::<Result<Vec<i32>, usize>>()
             }
-        })
+        }
     })?;
     match found {
         Ok(places) => Ok(places.into_pyarray(py)),
@@ -141,13 +138,13 @@ pub(crate) fn pairs_among<'py>(
 ) -> PyResult<Bound<'py, PyArray2<u32>>> {
     let nodes = nodes.as_array().to_vec();
     let input = &graph.0.graph;
-    let found = py.detach(|| {
+    let found = work::briefly(py, || {
         let inside = |&&(_, j): &&(u32, u32)| nodes.binary_search(&j).is_ok();
         if nodes.len() == input.nodes() {
             return input.edges().to_vec();
         }
         let of_node = |&node: &u32| input.edges_from(node).iter().filter(inside).copied();
         nodes.iter().flat_map(of_node).collect()
-    });
+    })?;
     pair_array(py, &found)
 }

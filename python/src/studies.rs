@@ -91,7 +91,7 @@ pub(crate) fn audit(
 ) -> PyResult<Said> {
     let options = float_options(tolerance, method, seed)?;
     let ((input, verdict), (.., time)) = (decided.answer(), decided.asked());
-    let (job, threads) = (Job::new(py)?, work::threads()?);
+    let job = Job::new(py)?;
     let work = move || {
         let float = Beside::new(&input.graph, &verdict, &options, draws)?;
         let found = Audit {
@@ -107,7 +107,7 @@ pub(crate) fn audit(
         );
         Ok(said)
     };
-    let found: Result<_, AuditError> = job.run(py, move || threads.install(work))?;
+    let found: Result<_, AuditError> = job.run(py, work)?;
     found
         .map_err(|error| of_doubles(&error))?
         .map_err(|error| of_any(&error))
@@ -157,18 +157,18 @@ impl Claims {
         let input = match graph {
             Some(graph) => Arc::clone(&graph.0),
             None => {
-                let named = claims::graph(&claim.graph, folder.as_deref(), &|_| None);
+                let named = work::briefly(py, || {
+                    claims::graph(&claim.graph, folder.as_deref(), &|_| None)
+                })?;
                 Arc::new(named.map_err(|error| of_any(&error.into()))?)
             }
         };
         let wanted = wanted.of_model(claim.model.name());
-        let (job, threads, line) = (Job::new(py)?, work::threads()?, found.line);
+        let (job, line) = (Job::new(py)?, found.line);
         let options = wanted.options(viewcert::Known::default(), job.watch());
         let options = options.map_err(InputError::new_err)?;
         let (start, asked) = (Instant::now(), Arc::clone(&input));
-        let decided = job.run(py, move || {
-            threads.install(|| viewcert::decide(&asked.graph, &options))
-        })?;
+        let decided = job.run(py, move || viewcert::decide(&asked.graph, &options))?;
         let exact = decided.map_err(|error| of_deciding(&error))?;
         let (nodes, edges) = (input.graph.nodes(), input.graph.edges().len());
         let ruled = Ruled {
@@ -233,13 +233,13 @@ pub(crate) fn singular_value(
         matrix: Some(matrix),
         norm: Some(norm),
     });
-    let (job, threads) = (Job::new(py)?, work::threads()?);
+    let job = Job::new(py)?;
     let stop = job.watch();
     let work = move || {
         let at = (&*centres, &*here);
         sigma(matrix, &input.graph, at, claim.as_ref(), &stop)
     };
-    let found = job.run(py, move || threads.install(work))?;
+    let found = job.run(py, work)?;
     let found = found.map_err(of_sigma)?;
     Ok(([found.least.to_string(), found.most.to_string()], place))
 }
@@ -267,7 +267,7 @@ pub(crate) fn audit_at_cameras(py: Python<'_>, at: &AtCameras, table: &str) -> P
              audit each at the cameras of its own verdict"
         )));
     }
-    let (job, threads) = (Job::new(py)?, work::threads()?);
+    let job = Job::new(py)?;
     let stop = job.watch();
     let work = move || {
         let each = (1..).zip(&rows).map(|(number, claim)| {
@@ -291,7 +291,7 @@ pub(crate) fn audit_at_cameras(py: Python<'_>, at: &AtCameras, table: &str) -> P
         });
         each.collect::<Result<Vec<_>, SigmaError>>()
     };
-    let found = job.run(py, move || threads.install(work))?;
+    let found = job.run(py, work)?;
     let found = found.map_err(of_sigma)?.into_iter();
     let found: anyhow::Result<Vec<Said>> = found.collect();
     found.map_err(|error| of_any(&anyhow!("{error:#}")))

@@ -4,11 +4,17 @@
 //! for signals, and tells the callback what has happened. Work under the watch ends where it asks
 //! whether it may go on. What does not ask (reading, checking) is left to itself after a moment: it
 //! holds nothing of Python.
+//!
+//! All of it runs on the threads of this process: a process that was forked has none of its parent's,
+//! and would wait for them for ever. So nothing else here may start threads, nor leave the interpreter
+//! (`clippy.toml`), and whatever computes elsewhere all the same ends with an error (`no_global_threads`).
+
+#![expect(clippy::disallowed_methods, reason = "this is where threads come from")]
 
 use crate::errors::{InputError, TooLarge};
-use pyo3::exceptions::{PyOSError, PyRuntimeError};
+use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
-use rayon::{ThreadPool, ThreadPoolBuilder};
+use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use std::collections::VecDeque;
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -21,11 +27,15 @@ const TICK: Duration = Duration::from_millis(50);
 /// How long stopped work may take to end by itself.
 const GRACE: Duration = Duration::from_millis(500);
 
+/// What a thread may use for its calls, as much as the first thread of a program: `verify` runs on one.
+const STACK: usize = 8 << 20;
+
 /// Most stages that are remembered until the callback is told.
 const REMEMBERED: usize = 1000;
 
 /// What one call of a user does: within limits, and telling a callback how far it is.
 pub(crate) struct Job {
+    threads: Arc<ThreadPool>,
     watch: Watch,
     told: Arc<Told>,
     progress: Option<Py<PyAny>>,
@@ -61,6 +71,7 @@ impl Job {
         })?;
         let memory = memory.or(around.1);
         Ok(Self {
+            threads: threads(py)?,
             watch: Watch::new(Limits {
                 deadline: time.and_then(|time| Instant::now().checked_add(time)),
                 memory: memory.or_else(viewcert_session::default_memory_limit),
@@ -68,6 +79,22 @@ impl Job {
             told: Arc::new(told),
             progress: progress.or(around.2),
         })
+    }
+
+    /// The same on so many threads of its own, if a number is given.
+    ///
+    /// # Errors
+    /// If threads cannot be had, or none are wanted.
+    pub(crate) fn on(self, count: Option<usize>) -> PyResult<Self> {
+        let threads = match count {
+            None => return Ok(self),
+            Some(0) => {
+                let least = "threads=0: there is one thread at least";
+                return Err(InputError::new_err(least));
+            }
+            Some(count) => Arc::new(pool(count).map_err(none_left)?),
+        };
+        Ok(Self { threads, ..self })
     }
 
     /// The watch for the work, which tells the callback of its stages.
@@ -88,6 +115,12 @@ impl Job {
         Arc::clone(&self.told)
     }
 
+    /// Leaves work to itself, with the threads that it may hold for long: whatever comes next has others.
+    fn leave(&self, _: Python<'_>) {
+        let mut kept = unpoisoned(&POOL);
+        kept.take_if(|(_, threads)| Arc::ptr_eq(threads, &self.threads));
+    }
+
     /// Does `work`. The callback, if there is one, is called on this thread with what is being done, how many
     /// units of it are done, and how many there are (0 if that is not known).
     ///
@@ -100,13 +133,12 @@ impl Job {
         work: impl FnOnce() -> T + Send + 'static,
     ) -> PyResult<T> {
         let (sender, receiver) = channel();
-        let spawned = std::thread::Builder::new().spawn(move || {
+        self.threads.spawn(move || {
             // Nobody waits any more for work that was left to itself.
             let _ = sender.send(work());
         });
-        spawned.map_err(|error| PyOSError::new_err(error.to_string()))?;
         let receiver = Mutex::new(receiver);
-        let wait = |time| py.detach(|| unpoisoned(&receiver).recv_timeout(time));
+        let wait = |time| beside(py, || unpoisoned(&receiver).recv_timeout(time));
         let look = || {
             py.check_signals()?;
             match &self.progress {
@@ -130,7 +162,9 @@ impl Job {
                     if let Err(error) = look() {
                         self.watch.interrupt();
                         // Whatever it ends with, the first error is the one to raise.
-                        let _ = wait(GRACE);
+                        if matches!(wait(GRACE), Err(RecvTimeoutError::Timeout)) {
+                            self.leave(py);
+                        }
                         return Err(error);
                     }
                 }
@@ -139,6 +173,7 @@ impl Job {
             if self.watch.stopped() == Some(Reason::Time)
                 && late.get_or_insert_with(Instant::now).elapsed() > GRACE
             {
+                self.leave(py);
                 return Err(TooLarge::new_err("the time limit was reached"));
             }
         }
@@ -154,6 +189,7 @@ pub(crate) fn run<T: Send + 'static>(
     work: impl FnOnce() -> T + Send + 'static,
 ) -> PyResult<T> {
     let job = Job {
+        threads: threads(py)?,
         watch: Watch::default(),
         told: Arc::default(),
         progress: None,
@@ -161,45 +197,76 @@ pub(crate) fn run<T: Send + 'static>(
     job.run(py, work)
 }
 
-/// The threads that `work` computes with, of this process: a process that was forked has none of
-/// those of its parent.
+/// Work of a moment, which nobody interrupts: it may borrow.
 ///
 /// # Errors
 /// If threads cannot be had.
-pub(crate) fn threads() -> PyResult<Arc<ThreadPool>> {
-    static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
+pub(crate) fn briefly<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
+    let threads = threads(py)?;
+    Ok(py.detach(|| threads.install(work)))
+}
+
+/// Waiting, without the interpreter's lock, for what others compute.
+pub(crate) fn beside<T: Send>(py: Python<'_>, wait: impl FnOnce() -> T + Send) -> T {
+    py.detach(wait)
+}
+
+/// Work that goes on while the interpreter does, on threads of its own, as it may wait there for whoever
+/// takes what it finds.
+///
+/// # Errors
+/// If threads cannot be had.
+pub(crate) fn aside(work: impl FnOnce() + Send + 'static) -> PyResult<()> {
+    pool(0).map_err(none_left)?.spawn(work);
+    Ok(())
+}
+
+/// The threads of this process.
+static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
+
+/// The threads that work computes with, of this process. Whoever asks holds the interpreter's lock, and so
+/// does a process that forks: nobody asks meanwhile.
+///
+/// # Errors
+/// If threads cannot be had.
+fn threads(_: Python<'_>) -> PyResult<Arc<ThreadPool>> {
     let process = std::process::id();
-    let mut pool = unpoisoned(&POOL);
-    if let Some((owner, pool)) = &*pool
+    let mut kept = unpoisoned(&POOL);
+    if let Some((owner, threads)) = &*kept
         && *owner == process
     {
-        return Ok(Arc::clone(pool));
+        return Ok(Arc::clone(threads));
     }
-    let new = ThreadPoolBuilder::new().build();
-    let new = Arc::new(new.map_err(|error| TooLarge::new_err(error.to_string()))?);
-    if let Some(of_the_parent) = pool.replace((process, Arc::clone(&new))) {
-        // Its threads are not here to be waited for.
-        std::mem::forget(of_the_parent);
-    }
+    let new = Arc::new(pool(0).map_err(none_left)?);
+    // Those of the parent are not here to be waited for.
+    std::mem::forget(kept.replace((process, Arc::clone(&new))));
     Ok(new)
 }
 
-/// So many threads of their own, or else those of this process.
-///
-/// # Errors
-/// If threads cannot be had, or none are wanted.
-pub(crate) fn threads_of(count: Option<usize>) -> PyResult<Arc<ThreadPool>> {
-    match count {
-        None => threads(),
-        Some(0) => Err(InputError::new_err(
-            "threads=0: there is one thread at least",
-        )),
-        Some(count) => {
-            let pool = ThreadPoolBuilder::new().num_threads(count).build();
-            let pool = pool.map_err(|error| TooLarge::new_err(error.to_string()))?;
-            Ok(Arc::new(pool))
-        }
-    }
+/// So many threads, or as many as there are cores.
+fn pool(count: usize) -> Result<ThreadPool, ThreadPoolBuildError> {
+    ThreadPoolBuilder::new()
+        .num_threads(count)
+        .stack_size(STACK)
+        .thread_name(|number| format!("viewcert {number}"))
+        // Whoever waits finds that there will be no answer.
+        .panic_handler(|_| ())
+        .build()
+}
+
+/// Threads that cannot be had.
+fn none_left(error: ThreadPoolBuildError) -> PyErr {
+    TooLarge::new_err(error.to_string())
+}
+
+/// Makes sure that rayon never starts threads by itself, which a fork would lose: it tries once, here, and
+/// is refused.
+pub(crate) fn no_global_threads() {
+    let refuse = |_| Err(std::io::Error::other("work goes through `work`"));
+    let refused = ThreadPoolBuilder::new()
+        .spawn_handler(refuse)
+        .build_global();
+    debug_assert!(refused.is_err(), "no thread is started");
 }
 
 fn unpoisoned<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {

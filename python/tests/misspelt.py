@@ -27,7 +27,7 @@ if verdict.strength == "proved":  # type: ignore[comparison-overlap]
     pass
 if viewcert.check(b"").value == "not-solvable":  # type: ignore[comparison-overlap]
     pass
-viewcert.weak(verdict, of="edges")  # type: ignore[arg-type]
+viewcert.weak(verdict, of="edges")  # type: ignore[call-overload]
 viewcert.redundant(verdict, of="image")  # type: ignore[arg-type]
 viewcert.check_all("folder", errors="ignore")  # type: ignore[arg-type]
 for entry in viewcert.catalog(5):
@@ -40,8 +40,12 @@ viewcert.verify(graph, model=model)
 of_names: List[FrozenSet[str]] = verdict.components
 of_numbers: List[FrozenSet[int]] = verdict.components  # type: ignore[assignment]
 listed: List[Tuple[str, str]] = verdict.pairs_of(0)
-rows: NDArray[np.uint32] = verdict.pairs_of(0, as_array=True)
-wrong: List[Tuple[str, str]] = verdict.pairs_of(0, as_array=True)  # type: ignore[assignment]
+rows: NDArray[np.uint32] = verdict.pair_indices_of(0)
+wrong: List[Tuple[str, str]] = verdict.pair_indices_of(0)  # type: ignore[assignment]
+pairs: List[Tuple[str, str]] = verdict.graph.pairs
+suggested: Tuple[Tuple[str, str], ...] = viewcert.suggest(verdict)[0].pairs
+numbered: Tuple[Tuple[int, int], ...] = viewcert.suggest(names)[0].pairs  # type: ignore[assignment]
+needed: Tuple[str, ...] = viewcert.weak(names)[0].nodes
 of_tracks: viewcert.Graph[str] = viewcert.read("d.db", tracks=True)
 one: viewcert.Graph[int] = viewcert.read("pairs.txt", format="edges")
 some: Union[viewcert.Graph[int], List[viewcert.Graph[int]]] = viewcert.read("g.g6", format="graph6")

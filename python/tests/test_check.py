@@ -98,7 +98,7 @@ def test_what_is_no_graph_is_no_rejection(tmp_path: pathlib.Path) -> None:
         viewcert.check(certificate, [(0, 0)])
     with pytest.raises(viewcert.InputError):
         viewcert.check(certificate, tmp_path / "missing.txt")
-    with pytest.raises(OSError):
+    with pytest.raises(viewcert.InputError, match="No such file"):
         viewcert.check(tmp_path / "missing.json")
 
 

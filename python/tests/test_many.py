@@ -27,16 +27,16 @@ def test_pairs_have_one_component_each() -> None:
     assert verdict.component_of_pair([(9, 4), (0, 1)]).tolist() == [2, 0]
     of_graph = verdict.component_of_pair()
     nodes = verdict.graph.nodes
-    for (i, j), place in zip(verdict.graph.pairs.tolist(), of_graph.tolist()):
-        assert {nodes[i], nodes[j]} <= verdict.components[place]
+    for pair, place in zip(verdict.graph.pairs, of_graph.tolist()):
+        assert set(pair) <= verdict.components[place]
     assert verdict.component_of_node().tolist() == [0, 0, 0, 1, 1, 2]
     for component in range(3):
-        rows = verdict.pairs_of(component, as_array=True)
+        rows = verdict.pair_indices_of(component)
         assert [(nodes[i], nodes[j]) for i, j in rows.tolist()] == verdict.pairs_of(component)
         assert (verdict.component_of_pair(np.array(nodes)[rows]) == component).all()
 
 
-@pytest.mark.parametrize("pairs", [[(0, 9)], np.array([[0, 1], [0, 9]]), [(0, 77)], np.array([[-1, 0]])])
+@pytest.mark.parametrize("pairs", [[(0, 9)], np.array([[0, 1], [1, 2], [0, 9]]), [(0, 77)], np.array([[-1, 0]])])
 def test_strange_pairs_are_named(pairs: Any) -> None:
     with pytest.raises(viewcert.InputError, match=f"row {len(pairs) - 1} of the pairs"):
         viewcert.verify(PAIRS).component_of_pair(pairs)
@@ -80,7 +80,7 @@ def test_a_million_pairs_take_seconds() -> None:
     assert by_matrix < 20 * max(by_array, 0.05), (by_matrix, by_array)
     verdict = viewcert.verify(graph, solutions=None)
     start = time.process_time()
-    assert len(verdict.pairs_of(0, as_array=True)) == len(pairs)
+    assert len(verdict.pair_indices_of(0)) == len(pairs)
     assert not verdict.component_of_pair(pairs).any()
     assert time.process_time() - start < 5
 
@@ -90,7 +90,7 @@ def test_entries_of_a_matrix_that_are_there_twice() -> None:
     values = [1, -1, 2, 5, 0.5, 0]
     matrix = scipy.sparse.coo_array((values, (row, column)), shape=(4, 4))
     graph = viewcert.Graph(matrix)
-    assert graph.pairs.tolist() == [[0, 1], [1, 2]] and graph.nodes == [0, 1, 2, 3]
+    assert graph.pairs == [(0, 1), (1, 2)] and graph.nodes == [0, 1, 2, 3]
 
 
 def test_arrays_that_begin_between_numbers() -> None:
@@ -119,7 +119,7 @@ def test_data_frames(table: Any) -> None:
     assert viewcert.Graph(numbers) == viewcert.Graph([(5, 7), (7, 9)])
     scored = table({"query": ["p", "q"], "db": ["q", "r"], "score": [40, 3]})
     graph = viewcert.Graph(scored, columns=("query", "db"), inliers="score", min_inliers=15)
-    assert graph.nodes == ["p", "q", "r"] and graph.pairs.tolist() == [[0, 1]]
+    assert graph.nodes == ["p", "q", "r"] and graph.pairs == [("p", "q")]
     assert viewcert.Graph(scored, inliers="score").inliers.tolist() == [40, 3]
     with pytest.raises(viewcert.InputError, match="name the two that hold the pairs"):
         viewcert.verify(scored)
@@ -140,7 +140,7 @@ def test_edges_with_attributes() -> None:
     assert viewcert.Graph(known.to_networkx(), inliers="inliers").inliers.tolist() == [50, 7, 20]
     with pytest.warns(viewcert.NoteWarning, match="1 of 3 pairs have fewer than 10 inliers"):
         fewer = viewcert.Graph(graph.edges(data=True), inliers="matches", min_inliers=10)
-    assert fewer.pairs.tolist() == [[0, 1], [1, 2]]
+    assert fewer.pairs == [("a", "b"), ("b", "c")]
     [suggested] = viewcert.suggest(fewer)
     assert suggested.pairs == (("a", "c"),) and suggested.inliers == (7,)
     graph.add_edge("c", "d")
@@ -202,3 +202,75 @@ def test_many_graphs_can_be_interrupted_and_tell_how_far_they_are() -> None:
     with pytest.raises(KeyboardInterrupt):
         viewcert.verify_all(hard)
     assert time.monotonic() - sent[0] < 2
+
+
+class Tensor:
+    """An array of another library, as far as numpy sees it."""
+
+    def __init__(self, rows: Any) -> None:
+        self.rows = np.array(rows)
+
+    def __array__(self, dtype: Any = None, copy: Any = None) -> Any:
+        return self.rows if dtype is None else self.rows.astype(dtype)
+
+
+#: The same three pairs in all shapes.
+TRIPLE = [("a", "b"), ("b", "c"), ("c", "d")]
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        np.array(TRIPLE),
+        np.array(TRIPLE, dtype=object),
+        np.array(TRIPLE, dtype="S"),
+        np.array(TRIPLE).T,
+        np.array(TRIPLE, dtype=object).T,
+        Tensor(TRIPLE),
+        Tensor(np.array(TRIPLE).T),
+        nx.Graph(TRIPLE),
+        nx.DiGraph(TRIPLE),
+        nx.MultiGraph(TRIPLE),
+        tuple(map(list, TRIPLE)),
+    ],
+)
+def test_pairs_in_all_shapes(given: Any) -> None:
+    graph = viewcert.Graph(given)
+    assert graph.nodes == list("abcd") and graph.pairs == TRIPLE
+    assert graph.pair_indices.tolist() == [[0, 1], [1, 2], [2, 3]]
+    verdict = viewcert.verify(given)
+    assert verdict == viewcert.verify(TRIPLE)
+    if not isinstance(given, nx.Graph):
+        assert verdict.component_of_pair(given).tolist() == verdict.component_of_pair(TRIPLE).tolist()
+
+
+def test_an_edge_index_is_its_columns() -> None:
+    pairs = [(3, 9), (9, 40), (40, 3), (40, 1000)]
+    for given in (np.array(pairs).T, Tensor(np.array(pairs, dtype=np.int32).T), np.array(pairs, dtype=np.uint16).T):
+        graph = viewcert.Graph(given)
+        assert graph == viewcert.Graph(pairs) == viewcert.Graph(np.array(pairs))
+        # Nodes are what the input called them, and places say that they are places.
+        assert graph.nodes == [3, 9, 40, 1000]
+        assert graph.pairs == [(3, 9), (3, 40), (9, 40), (40, 1000)]
+        assert graph.pair_indices.tolist() == [[0, 1], [0, 2], [1, 2], [2, 3]]
+    # An edge_index holds each pair in both directions.
+    with pytest.warns(viewcert.NoteWarning):
+        both = viewcert.Graph(np.array([*pairs, *((b, a) for a, b in pairs)]).T)
+    assert both == viewcert.Graph(pairs)
+
+
+@pytest.mark.parametrize("two", [np.array([[0, 1], [1, 2]]), np.array([["a", "b"], ["b", "c"]]), Tensor([[0, 1], [0, 1]])])
+def test_an_array_that_is_both_is_refused(two: Any) -> None:
+    for call in (viewcert.verify, viewcert.Graph, viewcert.weak, viewcert.verify([(0, 1)]).component_of_pair):
+        with pytest.raises(viewcert.InputError, match=r"shape \(2, 2\) is two pairs as its rows, or as its columns"):
+            call(two)
+    # A list has rows.
+    assert viewcert.Graph(np.asarray(two).tolist()).pairs == sorted(set(map(tuple, np.asarray(two).tolist())))
+
+
+@pytest.mark.parametrize(
+    "wrong", [np.zeros(4, int), np.zeros((3, 3), int), np.zeros((2, 3), float), np.array(5), np.zeros((2, 3), "M8[s]"), Tensor([1.5])]
+)
+def test_arrays_that_are_no_pairs(wrong: Any) -> None:
+    with pytest.raises(viewcert.InputError, match="array"):
+        viewcert.verify(wrong)

@@ -58,7 +58,7 @@ def test_the_jacobian_is_the_derivative(seed: int) -> None:
     # Column by column: column 12 v + 3 c + r is entry (r, c).
     step = np.concatenate([steps[node].T.ravel() for node in given.nodes])
     product = matrix.toarray().dot(step)
-    for e, (i, j) in enumerate(given.pairs.tolist()):
+    for e, (i, j) in enumerate(given.pair_indices.tolist()):
         a, b = given.nodes[i], given.nodes[j]
         f = viewcert.fundamental_matrix(cameras[a], cameras[b])
         assert not any(skew_part(f, cameras[a], cameras[b]))
@@ -113,7 +113,7 @@ def test_plane_directions_are_a_framework(seed: int) -> None:
     assert mine.shape == (graph.number_of_edges(), 12)
     assert rank(mine) == other.rigidity_matrix_rank()
     # A quarter turn of every row of the rigidity matrix, up to its sign.
-    theirs = other.rigidity_matrix(vertex_order=list(range(6)), edge_order=viewcert.Graph(graph).pairs.tolist())
+    theirs = other.rigidity_matrix(vertex_order=list(range(6)), edge_order=viewcert.Graph(graph).pairs)
     for row, framework in zip(mine.toarray().tolist(), theirs.tolist()):
         turned = [entry for x, y in zip(framework[::2], framework[1::2]) for entry in (y, -x)]
         assert row in (turned, [-x for x in turned])
@@ -155,7 +155,7 @@ def test_singular_values_are_enclosed() -> None:
     # By the definition: all cameras and fundamental matrices of Frobenius norm 10.
     scaled = [10 * camera / np.linalg.norm(camera) for camera in cameras]
     rows = []
-    for i, j in graph.graph.pairs.tolist():
+    for i, j in graph.graph.pair_indices.tolist():
         f = viewcert.fundamental_matrix(scaled[i], scaled[j])
         f *= 10 / np.linalg.norm(f)
         for r, c in LOWER:

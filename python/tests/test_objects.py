@@ -25,7 +25,7 @@ def sent(value: Any) -> Any:
 def graphs() -> dict[str, viewcert.Graph[Any]]:
     """Graphs with nodes of all kinds, whose native labels are of all kinds."""
     return {
-        "consecutive": viewcert.Graph(np.array([[1, 2], [2, 3]])),
+        "consecutive": viewcert.Graph(np.array([[1, 2], [2, 3], [3, 4]])),
         "gaps": viewcert.Graph([(7, 10**12), (10**12, 9)]),
         "names": viewcert.Graph(TRIANGLES, name="names"),
         "digits": viewcert.Graph([("7", "10"), ("10", "9")]),

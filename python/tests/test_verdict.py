@@ -80,7 +80,7 @@ def test_certificates_are_saved_whole(tmp_path: pathlib.Path) -> None:
     assert (tmp_path / "c.json").read_bytes() == verdict.certificate()
     assert json.loads(verdict.certificate())["graph"]["name"] == "two triangles"
     assert verdict.certificate(compact=True).count(b"\n") == 1
-    with pytest.raises(OSError, match="was not written"):
+    with pytest.raises(viewcert.InputError, match="was not written"):
         verdict.save(tmp_path / "missing" / "c.json")
 
 

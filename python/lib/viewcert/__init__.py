@@ -54,6 +54,7 @@ from ._catalog import (
 )
 from ._check import Verified, check
 from ._errors import Error, InputError, NoteWarning, Rejected, TooLarge, Undecided
+from ._errors import answering as _answering
 from ._files import Archive, ListedImages, Lists, Merge, NotVerified, Overview, check_all, lists, merge, overview
 from ._graph import (
     Graph,
@@ -164,6 +165,10 @@ __all__ = [
     "weak",
     "witness",
 ]
+
+for _name in __all__:
+    if callable(globals()[_name]):
+        globals()[_name] = _answering(globals()[_name])
 
 # Messages are for who asks for them.
 _logging.getLogger("viewcert").addHandler(_logging.NullHandler())

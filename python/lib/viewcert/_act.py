@@ -3,22 +3,18 @@
 from __future__ import annotations
 
 import json
-import os
 from dataclasses import dataclass
-from typing import Any, Dict, List, Optional, Sequence, Tuple, get_args
+from typing import Any, Dict, Generic, List, Optional, Sequence, Tuple, get_args, overload
 
-from ._arguments import one_of, whole
+from ._arguments import listed, one_of, path_of, whole
 from ._errors import InputError
-from ._convert import Node
 from ._graph import Path, tracks_from_database
-from ._types import Lost, Strength, Value
-from ._verdict import Verdict, verify
-
-_Pair = Tuple[Node, Node]
+from ._types import Lost, N, Strength, Value
+from ._verdict import Given, Verdict, verify
 
 
 @dataclass(frozen=True)
-class Weak:
+class Weak(Generic[N]):
     """A pair, or a node, without which a component falls apart.
 
     Attributes
@@ -33,14 +29,14 @@ class Weak:
         ``'proof'`` or ``'error-bound'``.
     """
 
-    nodes: Tuple[Node, ...]
+    nodes: Tuple[N, ...]
     component: int
     why: str
     strength: Strength
 
 
 @dataclass(frozen=True)
-class Suggestion:
+class Suggestion(Generic[N]):
     """Pairs that join components if their images really overlap: that they do then is proved.
 
     Attributes
@@ -68,7 +64,7 @@ class Suggestion:
         Further images at the places of the two, to be matched as well: of frames that are one camera.
     """
 
-    pairs: Tuple[_Pair, ...]
+    pairs: Tuple[Tuple[N, N], ...]
     joins: Tuple[int, ...]
     single_pairs: int
     images: int
@@ -82,26 +78,26 @@ class Suggestion:
 
 
 @dataclass(frozen=True)
-class Outside:
+class Outside(Generic[N]):
     """A pair of an explained node in no larger component: its other end, its inliers if they are
     known, and the components that it reaches."""
 
-    node: Node
+    node: N
     inliers: Optional[int]
     reaches: Tuple[int, ...]
 
 
 @dataclass(frozen=True)
-class Unused:
+class Unused(Generic[N]):
     """A pair of an explained node that a database has and that was not used."""
 
-    node: Node
+    node: N
     inliers: int
     matches: Optional[int]
 
 
 @dataclass(frozen=True)
-class Explanation:
+class Explanation(Generic[N]):
     """Where a node is, and what it would need.
 
     Attributes
@@ -123,23 +119,23 @@ class Explanation:
         points of each it sees. An incremental mapper wants 30 to add an image.
     """
 
-    node: Node
+    node: N
     components: Tuple[int, ...]
     pairs_inside: int
-    pairs_outside: Tuple[Outside, ...]
-    unused: Tuple[Unused, ...]
-    suggestions: Tuple[Suggestion, ...]
+    pairs_outside: Tuple[Outside[N], ...]
+    unused: Tuple[Unused[N], ...]
+    suggestions: Tuple[Suggestion[N], ...]
     sees: Tuple[Tuple[int, int], ...] = ()
 
 
 @dataclass(frozen=True)
-class Export:
+class Export(Generic[N]):
     """What was written: the folder, how many components have a folder in it, the nodes in several
     of these, how many are in none, and the commands that come next, for each component."""
 
     folder: str
     components: int
-    shared: Tuple[Node, ...]
+    shared: Tuple[N, ...]
     outside: int
     commands: Tuple[Tuple[str, ...], ...]
 
@@ -155,7 +151,7 @@ class Break:
 
 
 @dataclass(frozen=True)
-class Implied:
+class Implied(Generic[N]):
     """Pairs that are determined though they are not in the graph.
 
     Attributes
@@ -172,7 +168,7 @@ class Implied:
 
     count: int
     beyond_components: int
-    pairs: Tuple[Tuple[Node, Node], ...]
+    pairs: Tuple[Tuple[N, N], ...]
     strength: Strength
     complete: Strength
 
@@ -195,7 +191,11 @@ def _known(numbers: Optional[Sequence[int]]) -> Optional[Tuple[int, ...]]:
     return None if numbers is None else tuple(numbers)
 
 
-def weak(verdict: Any, of: Lost = "pairs") -> List[Weak]:
+@overload
+def weak(verdict: Given[N], of: Lost = ...) -> List[Weak[N]]: ...
+@overload
+def weak(verdict: Any, of: Lost = ...) -> List[Weak[Any]]: ...
+def weak(verdict: Any, of: Lost = "pairs") -> List[Weak[Any]]:
     """The pairs without any one of which a component falls apart.
 
     Parameters
@@ -231,7 +231,11 @@ def weak(verdict: Any, of: Lost = "pairs") -> List[Weak]:
     ]
 
 
-def surplus(verdict: Any) -> Dict[Tuple[Node, Node], Dict[str, Any]]:
+@overload
+def surplus(verdict: Given[N]) -> Dict[Tuple[N, N], Dict[str, Any]]: ...
+@overload
+def surplus(verdict: Any) -> Dict[Tuple[Any, Any], Dict[str, Any]]: ...
+def surplus(verdict: Any) -> Dict[Tuple[Any, Any], Dict[str, Any]]:
     """In how many of its equations the rest of the graph checks each pair.
 
     Parameters
@@ -257,10 +261,8 @@ def surplus(verdict: Any) -> Dict[Tuple[Node, Node], Dict[str, Any]]:
     by_text = verdict.graph._by_text()
     found = _asked(verdict, "surplus", surplus=True)
     full = found["full"]
-    nodes = verdict.graph.nodes
-    pairs: Dict[Tuple[Node, Node], Dict[str, Any]] = {
-        (nodes[int(i)], nodes[int(j)]): {"surplus": full, "full": full, "strength": "proof"}
-        for i, j in verdict.graph.pairs
+    pairs: Dict[Tuple[Any, Any], Dict[str, Any]] = {
+        pair: {"surplus": full, "full": full, "strength": "proof"} for pair in verdict.graph.pairs
     }
     for item in found["items"]:
         a, b = (by_text[text] for text in item["images"])
@@ -314,7 +316,11 @@ def redundant(verdict: Any, of: Lost = "pairs") -> List[Break]:
     ]
 
 
-def implied(verdict: Any, most: int = 1000) -> Implied:
+@overload
+def implied(verdict: Given[N], most: int = ...) -> Implied[N]: ...
+@overload
+def implied(verdict: Any, most: int = ...) -> Implied[Any]: ...
+def implied(verdict: Any, most: int = 1000) -> Implied[Any]:
     """The pairs that are determined though they are not in the graph.
 
     Parameters
@@ -344,7 +350,7 @@ def implied(verdict: Any, most: int = 1000) -> Implied:
     )
 
 
-def _suggestions(found: List[Dict[str, Any]], by_text: Dict[str, Node]) -> List[Suggestion]:
+def _suggestions(found: List[Dict[str, Any]], by_text: Dict[str, Any]) -> List[Suggestion[Any]]:
     return [
         Suggestion(
             pairs=tuple((by_text[a], by_text[b]) for a, b in one["pairs"]),
@@ -363,7 +369,11 @@ def _suggestions(found: List[Dict[str, Any]], by_text: Dict[str, Node]) -> List[
     ]
 
 
-def suggest(verdict: Any, most: int = 10) -> List[Suggestion]:
+@overload
+def suggest(verdict: Given[N], most: int = ...) -> List[Suggestion[N]]: ...
+@overload
+def suggest(verdict: Any, most: int = ...) -> List[Suggestion[Any]]: ...
+def suggest(verdict: Any, most: int = 10) -> List[Suggestion[Any]]:
     """Pairs that join components if their images really overlap, the most promising first: that is what is
     proved. `Suggestion.why` says why each is named. A pair that was matched with too little coming of it is not.
 
@@ -392,7 +402,11 @@ def suggest(verdict: Any, most: int = 10) -> List[Suggestion]:
     return _suggestions(found, verdict.graph._by_text())
 
 
-def explain(verdict: Any, node: Node) -> Explanation:
+@overload
+def explain(verdict: Given[N], node: N) -> Explanation[N]: ...
+@overload
+def explain(verdict: Any, node: Any) -> Explanation[Any]: ...
+def explain(verdict: Any, node: Any) -> Explanation[Any]:
     """Explains a node: its components, its pairs, what it would need.
 
     Parameters
@@ -439,7 +453,11 @@ def explain(verdict: Any, node: Node) -> Explanation:
     )
 
 
-def export(verdict: Any, folder: Path) -> Export:
+@overload
+def export(verdict: Given[N], folder: Path) -> Export[N]: ...
+@overload
+def export(verdict: Any, folder: Path) -> Export[Any]: ...
+def export(verdict: Any, folder: Path) -> Export[Any]:
     """Writes the components to a folder, as COLMAP takes them: lists of images and pairs for each,
     tables of components, images and joints.
 
@@ -459,7 +477,7 @@ def export(verdict: Any, folder: Path) -> Export:
     if isinstance(verdict, (str, os.PathLike)):
         verdict = tracks_from_database(verdict)
     verdict = _decided(verdict)
-    found = _asked(verdict, "export", export=os.fspath(folder))
+    found = _asked(verdict, "export", export=path_of("folder", folder))
     by_text = verdict.graph._by_text()
     return Export(
         folder=found["folder"],

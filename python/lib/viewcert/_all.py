@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Iterable, List, Literal, Optional, Tuple, Union, get_args, overload
+from typing import TYPE_CHECKING, Any, Iterable, List, Literal, Optional, Tuple, Union, get_args, overload
 
 from . import _native
 from ._arguments import limits, one_of, whole_if
@@ -10,49 +10,28 @@ from ._errors import Error, InputError
 from ._graph import Graph, as_graph
 from ._progress import Progress, shown
 from ._question import chosen_model, wanted
-from ._types import Counting, Errors, Model
-from ._verdict import Verdict
+from ._types import Asked, Counting, Errors, Model, N
+from ._verdict import Given, Verdict
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 
 @overload
 def verify_all(
-    graphs: Iterable[Any],
-    *,
-    model: Optional[Model] = ...,
-    seed: int = ...,
-    planar: bool = ...,
-    solutions: Optional[Counting] = ...,
-    rational: bool = ...,
-    numerator: int = ...,
-    denominator: int = ...,
-    prime: Optional[int] = ...,
-    contraction: bool = ...,
-    counting: bool = ...,
-    errors: Literal["raise"] = ...,
-    threads: Optional[int] = ...,
-    time_limit: Optional[float] = ...,
-    memory_limit: Optional[int] = ...,
-    progress: Progress = ...,
+    graphs: Iterable[Given[N]], *, errors: Literal["raise"] = ..., threads: Optional[int] = ..., **asked: Unpack[Asked]
+) -> List[Verdict[N]]: ...
+@overload
+def verify_all(
+    graphs: Iterable[Given[N]], *, errors: Literal["return"], threads: Optional[int] = ..., **asked: Unpack[Asked]
+) -> List[Union[Verdict[N], Error]]: ...
+@overload
+def verify_all(
+    graphs: Iterable[Any], *, errors: Literal["raise"] = ..., threads: Optional[int] = ..., **asked: Unpack[Asked]
 ) -> List[Verdict[Any]]: ...
 @overload
 def verify_all(
-    graphs: Iterable[Any],
-    *,
-    errors: Literal["return"],
-    model: Optional[Model] = ...,
-    seed: int = ...,
-    planar: bool = ...,
-    solutions: Optional[Counting] = ...,
-    rational: bool = ...,
-    numerator: int = ...,
-    denominator: int = ...,
-    prime: Optional[int] = ...,
-    contraction: bool = ...,
-    counting: bool = ...,
-    threads: Optional[int] = ...,
-    time_limit: Optional[float] = ...,
-    memory_limit: Optional[int] = ...,
-    progress: Progress = ...,
+    graphs: Iterable[Any], *, errors: Literal["return"], threads: Optional[int] = ..., **asked: Unpack[Asked]
 ) -> List[Union[Verdict[Any], Error]]: ...
 def verify_all(
     graphs: Iterable[Any],

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import operator
-from typing import Any, Iterable, Optional, Tuple
+import os
+from typing import Any, Iterable, List, Optional, Tuple
 
 from ._errors import InputError
 
@@ -30,6 +31,34 @@ def whole(what: str, value: Any, least: int, most: int) -> int:
 def whole_if(what: str, value: Any, least: int, most: int) -> Optional[int]:
     """The same of what may be left out."""
     return None if value is None else whole(what, value, least, most)
+
+
+def listed(what: str, values: Any) -> List[Any]:
+    """All of several values.
+
+    Raises
+    ------
+    InputError
+        If it is one value.
+    """
+    try:
+        return list(values)
+    except TypeError:
+        raise InputError(f"{what}={values!r}: give a list") from None
+
+
+def path_of(what: str, value: Any) -> str:
+    """The path of a file or folder.
+
+    Raises
+    ------
+    InputError
+        If it is none.
+    """
+    try:
+        return os.fsdecode(value)
+    except TypeError:
+        raise InputError(f"{what}={value!r}: give the path of a file or folder") from None
 
 
 def one_of(what: str, value: Any, words: Iterable[str]) -> None:

@@ -6,28 +6,32 @@ import json
 import numbers
 import os
 import random
+import sys
 from dataclasses import dataclass, field
 from decimal import Decimal
 from fractions import Fraction
-from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _native
 from ._act import _decided
-from ._arguments import whole_if
+from ._arguments import listed, whole_if
 from ._check import of_native, text_of
 from ._convert import Node
 from ._errors import InputError
-from ._graph import Graph, Path, as_graph
+from ._graph import Graph, Path, as_graph, on_disk
 from ._kept import Kept
 from ._tables import csv_of
 from ._types import Decided, Place, RulingWord, Strength
 from ._verdict import Verdict
 from ._words import noted
 
-#: A matrix of 3 rows and 4 columns, or a centre; or all of them, or a file with them.
-Cameras = Union[Mapping[Node, Any], Sequence[Any], "np.ndarray[Any, Any]", Path]
+if TYPE_CHECKING:
+    import pycolmap
+
+#: A matrix of 3 rows and 4 columns, or a centre; or all of them, or a file or reconstruction with them.
+Cameras = Union[Mapping[Node, Any], Sequence[Any], "np.ndarray[Any, Any]", Path, "pycolmap.Reconstruction"]
 
 _Velocity = Tuple[Fraction, Fraction, Fraction]
 
@@ -380,11 +384,11 @@ def at_cameras(verdict: Any, cameras: Cameras) -> AtCameras:
     ----------
     verdict : Verdict
         Of any model. Or a graph, which is decided first, in the projective model.
-    cameras : mapping, array or path
+    cameras : mapping, array, path or pycolmap.Reconstruction
         For each node a matrix of 3 rows and 4 columns, or a vector of 3 numbers, its centre (in the affine
         model its viewing direction). Or an array of them, of shape (n, 3, 4) or (n, 3), in the order of
         the `graph.nodes` of the verdict. Or the path of a file or folder with them: a COLMAP model, text,
-        ``.csv``, ``.npy``, ``.npz``, ``.mat``. All numbers are taken exactly, floats as the fractions
+        ``.csv``, ``.npy``, ``.npz``, ``.mat``; or a reconstruction that is open in pycolmap. All numbers are taken exactly, floats as the fractions
         they are, and texts as decimals or fractions; fractions from :mod:`fractions` and sympy are
         taken too.
 
@@ -520,11 +524,20 @@ def _is(determined: bool, strength: Strength) -> str:
 def _cameras(verdict: Verdict[Any], cameras: Cameras) -> _native.Cameras:
     """The centres of the nodes of a verdict."""
     graph, model = verdict.graph, verdict.model
-    if isinstance(cameras, (str, os.PathLike)):
-        found = _native.Cameras.in_file(graph._native, model, os.fspath(cameras))
-        noted(graph.name, found.notes)
-        return found
-    return _native.Cameras.of_numbers(graph._native, model, *texts_of(graph, cameras, model))
+    read = _in_file(graph, cameras, model)
+    return read or _native.Cameras.of_numbers(graph._native, model, *texts_of(graph, cameras, model))
+
+
+def _in_file(graph: Graph[Any], cameras: Cameras, model: str) -> Optional[_native.Cameras]:
+    """Those of a file, a model, or a reconstruction that is open in pycolmap; or None."""
+    pycolmap = sys.modules.get("pycolmap")
+    is_open = pycolmap is not None and isinstance(cameras, pycolmap.Reconstruction)
+    if not is_open and not isinstance(cameras, (str, bytes, os.PathLike)):
+        return None
+    with on_disk(cameras, "cameras") as (file, name):
+        found = _native.Cameras.in_file(graph._native, model, file)
+    noted(graph.name, (note.replace(file, name or file) for note in found.notes))
+    return found
 
 
 def texts_of(graph: Graph[Any], cameras: Cameras, model: str) -> Tuple[List[str], int]:
@@ -535,10 +548,9 @@ def texts_of(graph: Graph[Any], cameras: Cameras, model: str) -> Tuple[List[str]
     InputError
         If nodes have no camera, or it has another shape.
     """
-    if isinstance(cameras, (str, os.PathLike)):
-        found = _native.Cameras.in_file(graph._native, model, os.fspath(cameras))
-        noted(graph.name, found.notes)
-        return found.numbers()
+    read = _in_file(graph, cameras, model)
+    if read is not None:
+        return read.numbers()
     nodes = graph.nodes
     if isinstance(cameras, Mapping):
         absent = [node for node in nodes if node not in cameras]
@@ -547,7 +559,7 @@ def texts_of(graph: Graph[Any], cameras: Cameras, model: str) -> Tuple[List[str]
             raise InputError(f"cameras: there is none for {absent[0]!r}{more}, which the graph has")
         each = [cameras[node] for node in nodes]
     else:
-        each = list(cameras)
+        each = listed("cameras", cameras)
         if len(each) != len(nodes):
             raise InputError(
                 f"cameras: {len(each)} are given for {len(nodes)} nodes; one for each of `graph.nodes` is needed"

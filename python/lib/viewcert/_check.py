@@ -149,9 +149,7 @@ def check(
     TooLarge
         If checking would cost more than the limits allow.
     InputError
-        If `graph` is no graph, or `parts` or `displacements` are not sets of its nodes.
-    OSError
-        If the file of the certificate cannot be read.
+        If `graph` is no graph, `parts` or `displacements` are not sets of its nodes, or a file cannot be read.
 
     Examples
     --------

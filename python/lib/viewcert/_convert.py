@@ -48,7 +48,7 @@ def converted(graph: Any, name: str, wish: Wish) -> Converted:
         return _of_pairs(edges, name, list(graph), wish)
     if isinstance(graph, (str, bytes, os.PathLike)):
         raise InputError(f"{graph!r} is no graph; viewcert.read reads files")
-    if wish.inliers is not None and (isinstance(graph, np.ndarray) or hasattr(graph, "tocsr")):
+    if wish.inliers is not None and (hasattr(graph, "__array__") or hasattr(graph, "tocsr")):
         raise InputError(
             f"inliers={wish.inliers!r}: an array has no attributes; give a graph of networkx, its "
             "edges(data=True), or a table"
@@ -59,8 +59,11 @@ def converted(graph: Any, name: str, wish: Wish) -> Converted:
     sparse = sys.modules.get("scipy.sparse")
     if sparse is not None and sparse.issparse(graph):
         return _of_sparse(graph, name)
-    if isinstance(graph, np.ndarray):
-        return _of_array(graph, name)
+    if hasattr(graph, "__array__"):
+        pairs = rows_of(graph)
+        if pairs.dtype.kind in "iu":
+            return _of_integers(pairs, name)
+        graph = pairs.tolist()
     return _of_pairs(graph, name, [], wish)
 
 
@@ -98,7 +101,7 @@ def _of_table(frame: Any, name: str, wish: Wish) -> Converted:
         if missing:
             raise InputError(f"column {head!r} of the table is empty in row {missing[0]}; leave it out")
     if wish.inliers is None and all(column.dtype.kind in "iu" for column in ends):
-        return _of_array(np.stack(ends, axis=1), name)
+        return _of_integers(np.stack(ends, axis=1), name)
     pairs: List[Any] = list(zip(*(column.tolist() for column in ends)))
     if wish.inliers is not None:
         counts = frame[wish.inliers].to_numpy().tolist()
@@ -112,17 +115,38 @@ def _values(column: NDArray[Any]) -> Sequence[Any]:
     return values
 
 
-def _of_array(pairs: NDArray[Any], name: str) -> Converted:
-    if pairs.ndim != 2 or pairs.shape[1] != 2:
+def rows_of(pairs: Any) -> NDArray[Any]:
+    """An array, also of another library, as rows of two nodes: of shape (m, 2), or (2, m) as an ``edge_index``.
+
+    Raises
+    ------
+    InputError
+        Another shape, or entries that are neither integers nor texts.
+    """
+    try:
+        found = np.asarray(pairs)
+    except Exception as error:
+        raise InputError(f"this {type(pairs).__name__} is no array of numpy: {error}") from None
+    if found.shape == (2, 2):
         raise InputError(
-            f"an array of shape {pairs.shape} is no list of pairs, which has shape (m, 2); make an "
+            "an array of shape (2, 2) is two pairs as its rows, or as its columns (an edge_index): give a list, "
+            "array.tolist() for its rows and array.T.tolist() for its columns"
+        )
+    if found.ndim != 2 or 2 not in found.shape:
+        raise InputError(
+            f"an array of shape {found.shape} is no list of pairs, which has shape (m, 2) or (2, m); make an "
             "adjacency matrix a sparse one (scipy.sparse.coo_array)"
         )
-    if pairs.dtype.kind not in "iu":
-        raise InputError(
-            f"an array of {pairs.dtype} holds no numbers of images: give integers, or an iterable "
-            "of pairs"
-        )
+    if found.shape[1] != 2:
+        found = found.T
+    if found.dtype.kind == "S":
+        return np.char.decode(found, "utf-8", "surrogateescape")
+    if found.dtype.kind not in "iuUOT":
+        raise InputError(f"an array of {found.dtype} holds no names of images: give integers, or texts")
+    return found
+
+
+def _of_integers(pairs: NDArray[Any], name: str) -> Converted:
     if pairs.dtype not in (np.int64, np.uint64, np.int32, np.uint32):
         pairs = pairs.astype(np.int64)
     # A view into a buffer may begin between two numbers.
@@ -183,7 +207,7 @@ def _of_pairs(graph: Any, name: str, alone: List[Node], wish: Wish) -> Converted
     except TypeError:
         raise InputError(
             f"{type(graph).__name__} is no graph: give a graph of networkx or rustworkx, a sparse "
-            "matrix, an integer array of shape (m, 2), a table, or pairs of nodes"
+            "matrix, an array of shape (m, 2) or (2, m), a table, or pairs of nodes"
         ) from None
     if any(isinstance(pair, (str, bytes)) or not hasattr(pair, "__len__") for pair in pairs):
         raise InputError("a graph is given by pairs of nodes, such as [('a.jpg', 'b.jpg')]")

@@ -87,7 +87,7 @@ def plot(
         ax = plt.gca()
     count = len(points)
     size = node_size if node_size is not None else float(np.clip(4000 / max(count, 1), 8, 120))
-    pairs = verdict.graph.pairs
+    pairs = verdict.graph.pair_indices
     width = float(np.clip(150 / max(len(pairs), 1), 0.3, 1.8))
     ax.add_collection(LineCollection(list(points[pairs]), colors=of_pair, linewidths=width, zorder=1))
     ax.scatter(points[:, 0], points[:, 1], s=size, c=of_node, edgecolors="white", linewidths=0.8, zorder=2)
@@ -142,7 +142,7 @@ def to_tikz(
         label = f", label={{above right:\\scriptsize {_tex(node)}}}" if named else ""
         lines.append(rf"  \node[vertex={colour}{label}] (v{k}) at ({x:.3f}, {y:.3f}) {{}};")
     places = verdict.component_of_pair().tolist()
-    for (i, j), place in zip(verdict.graph.pairs.tolist(), places):
+    for (i, j), place in zip(verdict.graph.pair_indices.tolist(), places):
         lines.append(rf"  \draw[{name_of[native[place % len(native)]]}] (v{i}) -- (v{j});")
     lines.append(r"\end{tikzpicture}")
     return "\n".join(lines) + "\n"

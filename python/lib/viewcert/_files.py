@@ -7,16 +7,19 @@ import json
 import os
 from dataclasses import dataclass, field
 from decimal import Decimal
-from typing import Any, Dict, List, Optional, Sequence, Tuple, Union, get_args
+from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Tuple, Union, get_args
 
 from . import _native
-from ._arguments import one_of, whole_if
+from ._arguments import listed, one_of, path_of, whole_if
 from ._errors import InputError, Rejected, TooLarge
-from ._graph import Path
+from ._graph import Path, on_disk
 from ._progress import Progress
 from ._limits import limits
 from ._types import Errors, Format, Pipeline
 from ._words import in_python
+
+if TYPE_CHECKING:
+    import pycolmap
 
 
 def _reading(
@@ -44,10 +47,10 @@ def _reading(
         "min_inliers": whole_if("min_inliers", min_inliers, 0, 2**32 - 1),
         "min_views": whole_if("min_views", min_views, 1, 2**32 - 1),
         "max_spread": whole_if("max_spread", max_spread, 0, 2**32 - 1),
-        "rigs": rigs,
-        "columns": None if columns is None else ",".join(map(str, columns)),
+        "rigs": bool(rigs),
+        "columns": None if columns is None else ",".join(map(str, listed("columns", columns))),
         "min_weight": None if min_weight is None else str(min_weight),
-        "skip_loops": skip_loops,
+        "skip_loops": bool(skip_loops),
     }
 
 
@@ -193,7 +196,7 @@ class Lists:
 
 
 def lists(
-    graph: Path,
+    graph: Union[Path, pycolmap.Database],
     files: Sequence[Path],
     *,
     pipeline: Optional[Pipeline] = None,
@@ -206,7 +209,7 @@ def lists(
 
     Parameters
     ----------
-    graph : str or path
+    graph : str, path or pycolmap.Database
         A database of COLMAP, of which each list is decided by its own tracks, or another graph, of which it is
         decided by its own pairs.
     files : sequence of paths
@@ -233,7 +236,9 @@ def lists(
     )
     if isinstance(files, (str, bytes, os.PathLike)):
         raise InputError("files: give a list of paths, one for each list of images")
-    said, text = _native.lists(os.fspath(graph), [os.fspath(file) for file in files], reading)
+    paths = [path_of("files", file) for file in listed("files", files)]
+    with on_disk(graph, "graph") as (path, name):
+        said, text = (one.replace(path, name or path) for one in _native.lists(path, paths, reading))
     found = json.loads(said)
     each = tuple(ListedImages(one["file"], one["images"], one["whole"]) for one in found["lists"])
     return Lists(found["determined"], each, found, text)
@@ -406,7 +411,7 @@ def check_all(path: Path, *, errors: Errors = "return", progress: Progress = Non
     """
     one_of("errors", errors, get_args(Errors))
     with limits(progress=progress):
-        found = _native.check_all(os.fspath(path))
+        found = _native.check_all(path_of("path", path))
 
     def listed(items: List[Tuple[str, int, str]]) -> Tuple[NotVerified, ...]:
         return tuple(NotVerified(file, line, in_python(reason)) for file, line, reason in items)
@@ -428,5 +433,5 @@ def check_all(path: Path, *, errors: Errors = "return", progress: Progress = Non
         for bad in archive.too_large:
             raise TooLarge(f"{bad.file}:{bad.line}: {bad.reason}")
         if archive.complete is False:
-            raise Rejected(os.fspath(path), "; ".join(archive.manifest))
+            raise Rejected(path_of("path", path), "; ".join(archive.manifest))
     return archive

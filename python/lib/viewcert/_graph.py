@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
+import sys
 import tempfile
+from contextlib import contextmanager
 from decimal import Decimal
 from typing import (
     TYPE_CHECKING,
@@ -27,15 +29,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
-from ._arguments import one_of, whole, whole_if
-from ._convert import Node, Wish, converted
-from ._errors import InputError
+from ._arguments import listed, one_of, path_of, whole, whole_if
+from ._convert import Node, Wish, converted, rows_of
+from ._errors import Error, InputError, answering
 from ._native import Graph as NativeGraph
-from ._types import Format, Lines, N, Pipeline
+from ._types import Format, Lines, N, Pipeline, Reading
 from ._words import in_python, noted, shown_notes
 
 if TYPE_CHECKING:
     import networkx
+    import pycolmap
+    from typing_extensions import Unpack
 
 Path = Union[str, "os.PathLike[str]"]
 
@@ -71,8 +75,8 @@ class Graph(Generic[N]):
     <viewcert.Graph 'triangle': 3 nodes, 3 pairs>
     >>> graph.nodes
     ['a', 'b', 'c']
-    >>> graph.pairs.tolist()
-    [[0, 1], [0, 2], [1, 2]]
+    >>> graph.pairs
+    [('a', 'b'), ('a', 'c'), ('b', 'c')]
     >>> len(graph), "a" in graph, list(graph)
     (3, True, ['a', 'b', 'c'])
     >>> graph == viewcert.Graph([("c", "b"), ("c", "a"), ("b", "a")])
@@ -86,6 +90,7 @@ class Graph(Generic[N]):
     _texts: Optional[Sequence[str]]
     _numbers: Optional[Dict[Node, int]]
 
+    @answering
     def __init__(
         self,
         graph: Any,
@@ -190,8 +195,14 @@ class Graph(Generic[N]):
         return cast("List[N]", list(self._nodes or ()))
 
     @property
-    def pairs(self) -> NDArray[np.uint32]:
-        """The pairs, of shape (m, 2): node numbers, the smaller first, sorted."""
+    def pairs(self) -> List[Tuple[N, N]]:
+        """The pairs of nodes, each in the order of `nodes`, and sorted by it."""
+        return self._named(self.pair_indices)
+
+    @property
+    def pair_indices(self) -> NDArray[np.uint32]:
+        """The same as an array of shape (m, 2) with places in `nodes`: of millions of pairs in a tenth of a second
+        instead of ten."""
         return self._native.pairs()
 
     @property
@@ -238,12 +249,11 @@ class Graph(Generic[N]):
         else:
             graph.add_nodes_from(nodes[:cameras], bipartite=0)
             graph.add_nodes_from(nodes[cameras:], bipartite=1)
-        ends = ((nodes[i], nodes[j]) for i, j in self.pairs.tolist())
         if inliers is None:
-            graph.add_edges_from(ends)
+            graph.add_edges_from(self.pairs)
         else:
             counts = inliers.tolist()
-            graph.add_edges_from((a, b, {"inliers": count}) for (a, b), count in zip(ends, counts))
+            graph.add_edges_from((a, b, {"inliers": count}) for (a, b), count in zip(self.pairs, counts))
         return graph
 
     def __repr__(self) -> str:
@@ -259,11 +269,16 @@ class Graph(Generic[N]):
         assert self._numbers is not None
         return self._numbers
 
+    def _named(self, rows: NDArray[np.uint32]) -> List[Tuple[N, N]]:
+        """Rows of node numbers as pairs of nodes."""
+        nodes = self.nodes
+        return [(nodes[i], nodes[j]) for i, j in rows.tolist()]
+
     def _rows(self, pairs: Any) -> NDArray[np.uint32]:
         """Pairs of nodes as rows of node numbers."""
+        if hasattr(pairs, "__array__"):
+            pairs = rows_of(pairs)
         if isinstance(pairs, np.ndarray) and pairs.dtype.kind in "iu":
-            if pairs.ndim != 2 or pairs.shape[1] != 2:
-                raise InputError(f"an array of shape {pairs.shape} is no list of pairs, which has shape (m, 2)")
             known = np.array(self.nodes)
             if known.dtype.kind in "iu" and (known[1:] > known[:-1]).all():
                 first, last = int(known[0]), int(known[-1])
@@ -277,12 +292,13 @@ class Graph(Generic[N]):
                     row = int(np.flatnonzero(strange.any(axis=1))[0])
                     raise InputError(f"row {row} of the pairs, {tuple(pairs[row].tolist())}, is no pair of the graph")
                 return places.astype(np.uint32)
-            pairs = pairs.tolist()
         numbers, found = self._number_of(), []
-        for row, (a, b, *_) in enumerate(pairs):
-            if a not in numbers or b not in numbers:
-                raise InputError(f"row {row} of the pairs, {(a, b)!r}, is no pair of the graph")
-            found.append((numbers[a], numbers[b]))
+        for row, pair in enumerate(listed("pairs", pairs)):
+            try:
+                a, b, *_ = pair
+                found.append((numbers[a], numbers[b]))
+            except (KeyError, TypeError, ValueError):
+                raise InputError(f"row {row} of the pairs, {pair!r}, is no pair of the graph") from None
         return np.array(found, dtype=np.uint32).reshape(-1, 2)
 
     def _text_of(self, node: Node) -> str:
@@ -292,9 +308,9 @@ class Graph(Generic[N]):
         number = self._number_of().get(node)
         return str(node) if number is None else self._texts[number]
 
-    def _by_text(self) -> dict[str, Node]:
+    def _by_text(self) -> dict[str, Any]:
         """The nodes by what they are called in reports."""
-        nodes: List[Node] = list(self.nodes)
+        nodes: List[Any] = list(self.nodes)
         texts = map(str, nodes) if self._texts is None else self._texts
         return dict(zip(texts, nodes))
 
@@ -333,6 +349,47 @@ def numbered(
     return found
 
 
+@contextmanager
+def on_disk(given: Any, what: str = "path") -> Iterator[Tuple[str, Optional[str]]]:
+    """The path of a file or folder; of what is open in pycolmap that of a copy, for as long, and what to call that.
+
+    Raises
+    ------
+    InputError
+        If it is neither, or cannot be copied.
+    """
+    pycolmap = sys.modules.get("pycolmap")
+    if pycolmap is None or not isinstance(given, (pycolmap.Database, pycolmap.Reconstruction)):
+        yield path_of(what, given), None
+        return
+    with tempfile.TemporaryDirectory(prefix="viewcert-") as folder:
+        name = "reconstruction" if isinstance(given, pycolmap.Reconstruction) else "database"
+        try:
+            path = _copied(pycolmap, given, folder)
+        except Exception as error:
+            raise InputError(f"{what}: this {name} of pycolmap cannot be read: {error}") from None
+        try:
+            yield path, name
+        except Error as error:
+            error.args = tuple(word.replace(path, name) if isinstance(word, str) else word for word in error.args)
+            raise
+
+
+def _copied(pycolmap: Any, given: Any, folder: str) -> str:
+    """Writes what is open to a folder, and says where it is."""
+    if isinstance(given, pycolmap.Reconstruction):
+        given.write_binary(folder)
+        return folder
+    paths = [os.path.join(folder, name) for name in ("empty.db", "database.db")]
+    empty, copy = map(pycolmap.Database.open, paths)
+    try:
+        pycolmap.Database.merge(given, empty, copy)
+    finally:
+        empty.close()
+        copy.close()
+    return paths[1]
+
+
 def as_graph(graph: Any, name: Optional[str] = None) -> Graph[Any]:
     """Any graph as a `Graph`, and of a verdict its graph."""
     if isinstance(graph, Graph):
@@ -346,56 +403,18 @@ def as_graph(graph: Any, name: Optional[str] = None) -> Graph[Any]:
 
 @overload
 def read(
-    path: Path,
-    *,
-    tracks: Literal[True],
-    format: Optional[Format] = ...,
-    variable: Optional[str] = ...,
-    pipeline: Optional[Pipeline] = ...,
-    min_inliers: Optional[int] = ...,
-    min_views: int = ...,
-    max_spread: int = ...,
-    rigs: bool = ...,
-    columns: Optional[Sequence[Union[str, int]]] = ...,
-    min_weight: Union[str, int, Decimal, None] = ...,
-    skip_loops: bool = ...,
+    path: Path, *, tracks: Literal[True], format: Optional[Format] = ..., **reading: Unpack[Reading]
 ) -> Graph[str]: ...
 @overload
 def read(
-    path: Path,
-    *,
-    format: Format,
-    variable: Optional[str] = ...,
-    pipeline: Optional[Pipeline] = ...,
-    min_inliers: Optional[int] = ...,
-    tracks: Literal[False] = ...,
-    min_views: int = ...,
-    max_spread: int = ...,
-    rigs: bool = ...,
-    columns: Optional[Sequence[Union[str, int]]] = ...,
-    min_weight: Union[str, int, Decimal, None] = ...,
-    skip_loops: bool = ...,
+    path: Path, *, format: Format, tracks: Literal[False] = ..., **reading: Unpack[Reading]
 ) -> Graph[Any]: ...
 @overload
 def read(
     path: Path, *, format: Lines, skip_loops: bool = ...
 ) -> Union[Graph[int], List[Graph[int]]]: ...
 @overload
-def read(
-    path: Path,
-    *,
-    format: None = ...,
-    variable: Optional[str] = ...,
-    pipeline: Optional[Pipeline] = ...,
-    min_inliers: Optional[int] = ...,
-    tracks: bool = ...,
-    min_views: int = ...,
-    max_spread: int = ...,
-    rigs: bool = ...,
-    columns: Optional[Sequence[Union[str, int]]] = ...,
-    min_weight: Union[str, int, Decimal, None] = ...,
-    skip_loops: bool = ...,
-) -> Any: ...
+def read(path: Path, *, format: None = ..., tracks: bool = ..., **reading: Unpack[Reading]) -> Any: ...
 def read(
     path: Path,
     *,
@@ -470,41 +489,43 @@ def read(
         raise InputError(f"min_weight={min_weight!r}: give an integer, a Decimal or a string")
     if pipeline is not None:
         one_of("pipeline", pipeline, get_args(Pipeline))
-    found = _native.read(
-        os.fspath(path),
-        format=format,
-        variable=variable,
-        pipeline=pipeline,
-        min_inliers=whole_if("min_inliers", min_inliers, 0, 2**32 - 1),
-        min_views=whole("min_views", min_views, 1, 2**32 - 1) if tracks else None,
-        max_spread=whole("max_spread", max_spread, 0, 2**32 - 1) if tracks else None,
-        rigs=rigs,
-        columns=None if columns is None else ",".join(map(str, columns)),
-        min_weight=None if min_weight is None else str(min_weight),
-        skip_loops=skip_loops,
-    )
+    with on_disk(path) as (file, name):
+        found = _native.read(
+            file,
+            name=name,
+            format=format,
+            variable=variable,
+            pipeline=pipeline,
+            min_inliers=whole_if("min_inliers", min_inliers, 0, 2**32 - 1),
+            min_views=whole("min_views", min_views, 1, 2**32 - 1) if tracks else None,
+            max_spread=whole("max_spread", max_spread, 0, 2**32 - 1) if tracks else None,
+            rigs=bool(rigs),
+            columns=None if columns is None else ",".join(map(str, listed("columns", columns))),
+            min_weight=None if min_weight is None else str(min_weight),
+            skip_loops=bool(skip_loops),
+        )
     graphs = [Graph._of(native) for native in found]
     for graph in graphs:
         noted(graph.name, graph._native.notes)
     return graphs[0] if len(graphs) == 1 else graphs
 
 
-def _read_one(path: Path, **options: Any) -> Graph[str]:
+def _read_one(path: Any, **options: Any) -> Graph[str]:
     found = read(path, **options)
     if not isinstance(found, Graph):
-        raise InputError(f"{os.fspath(path)}: {len(found)} graphs, where one is expected")
+        raise InputError(f"{found[0].name}: {len(found)} graphs, where one is expected")
     return found
 
 
 def from_database(
-    path: Path, *, min_inliers: int = 15, pipeline: Pipeline = "incremental"
+    path: Union[Path, pycolmap.Database], *, min_inliers: int = 15, pipeline: Pipeline = "incremental"
 ) -> Graph[str]:
     """The viewing graph of a COLMAP database, which is opened for reading only.
 
     Parameters
     ----------
-    path : str or path
-        The database, of any version of COLMAP.
+    path : str, path or pycolmap.Database
+        The database, of any version of COLMAP; of one that is open in pycolmap a copy is read.
     min_inliers : int
         The least number of inliers of a pair.
     pipeline : {'incremental', 'global'}
@@ -523,12 +544,12 @@ def from_database(
     """
     graph = _read_one(path, min_inliers=min_inliers, pipeline=pipeline)
     if not graph._native.is_database:
-        raise InputError(f"{os.fspath(path)}: this is no database; viewcert.read reads files")
+        raise InputError(f"{graph.name}: this is no database; viewcert.read reads files")
     return graph
 
 
 def tracks_from_database(
-    path: Path,
+    path: Union[Path, pycolmap.Database],
     min_views: int = 3,
     *,
     max_spread: int = 10,
@@ -566,14 +587,15 @@ def tracks_from_database(
     return _read_one(path, tracks=True, min_views=min_views, **options)
 
 
-def tracks_from_reconstruction(reconstruction: Any, min_views: int = 3) -> Graph[str]:
+def tracks_from_reconstruction(
+    reconstruction: Union[Path, pycolmap.Reconstruction], min_views: int = 3
+) -> Graph[str]:
     """The graph of cameras and points of a reconstruction of pycolmap.
 
     Parameters
     ----------
-    reconstruction : pycolmap.Reconstruction
-        It is written to a temporary folder, and its tracks are read from there: what the program
-        says of the saved model.
+    reconstruction : str, path or pycolmap.Reconstruction
+        The folder of a model; or one that is open in pycolmap, of which a copy is read.
     min_views : int
         In how many images a track has to be seen to count.
 
@@ -587,6 +609,7 @@ def tracks_from_reconstruction(reconstruction: Any, min_views: int = 3) -> Graph
     InputError
         A reconstruction without points.
     """
-    with tempfile.TemporaryDirectory(prefix="viewcert-") as folder:
-        reconstruction.write_binary(folder)
-        return _read_one(folder, tracks=True, min_views=min_views)
+    graph = _read_one(reconstruction, tracks=True, min_views=min_views)
+    if graph._native.is_database:
+        raise InputError(f"{graph.name}: this is a database; viewcert.tracks_from_database reads it")
+    return graph

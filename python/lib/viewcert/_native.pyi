@@ -101,6 +101,7 @@ def component_of_pairs(
 def read(
     path: str | os.PathLike[str],
     *,
+    name: str | None = None,
     format: str | None = None,
     variable: str | None = None,
     pipeline: str | None = None,

@@ -5,6 +5,8 @@ from __future__ import annotations
 from contextlib import contextmanager
 from typing import Any, Callable, Iterator, Optional, Union
 
+from ._errors import InputError
+
 #: Called with what is being done, how many units of it are done, and of how many (0 if that is not
 #: known). What it raises stops the work.
 Callback = Callable[[str, int, int], object]
@@ -28,15 +30,30 @@ class _Bar:
         self._bar.update(done - self._bar.n)
 
 
+def _marked(callback: Callback) -> Callback:
+    """The callback, whose errors are known as its own."""
+
+    def tell(what: str, done: int, total: int) -> None:
+        try:
+            callback(what, done, total)
+        except Exception as error:
+            error.of_callback = True  # type: ignore[attr-defined]
+            raise
+
+    return tell
+
+
 @contextmanager
 def shown(progress: Progress) -> Iterator[Optional[Callback]]:
     """The callback for `progress`, and the end of its bar."""
     if callable(progress):
-        yield progress
-    elif progress:
+        yield _marked(progress)
+    elif progress is True:
         from tqdm.auto import tqdm
 
         with tqdm(unit="") as bar:
             yield _Bar(bar)
-    else:
+    elif progress is None or progress is False:
         yield None
+    else:
+        raise InputError(f"progress={progress!r}: give a function of what, done and total, or True for a bar")

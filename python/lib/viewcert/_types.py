@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Hashable, Literal, TypeVar
+from decimal import Decimal
+from typing import Hashable, Literal, Optional, Sequence, TypedDict, TypeVar, Union
+
+from ._progress import Progress
 
 #: What a user calls his images.
 N = TypeVar("N", bound=Hashable)
@@ -60,3 +63,35 @@ FloatMethod = Literal["auto", "dense", "gram", "sparse"]
 
 #: Matrices at given cameras.
 MatrixName = Literal["J_P", "J", "N", "R"]
+
+
+class Asked(TypedDict, total=False):
+    """What is asked of a graph, and within which limits: arguments of :func:`viewcert.verify`."""
+
+    model: Optional[Model]
+    seed: int
+    planar: bool
+    solutions: Optional[Counting]
+    rational: bool
+    numerator: int
+    denominator: int
+    prime: Optional[int]
+    contraction: bool
+    counting: bool
+    time_limit: Optional[float]
+    memory_limit: Optional[int]
+    progress: Progress
+
+
+class Reading(TypedDict, total=False):
+    """How a file is read: arguments of :func:`viewcert.read`."""
+
+    variable: Optional[str]
+    pipeline: Optional[Pipeline]
+    min_inliers: Optional[int]
+    min_views: int
+    max_spread: int
+    rigs: bool
+    columns: Optional[Sequence[Union[str, int]]]
+    min_weight: Union[str, int, Decimal, None]
+    skip_loops: bool

@@ -5,7 +5,6 @@ from __future__ import annotations
 import html
 import json
 import logging
-import os
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
@@ -33,28 +32,29 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
-from ._arguments import limits
+from ._arguments import limits, path_of, whole
 from ._convert import Node
 from ._draw import plot, positions, to_tikz
-from ._errors import InputError
+from ._errors import Absent, InputError
 from ._graph import Graph, Path, as_graph, numbered
 from ._kept import Kept, Question
 from ._native import Decided
 from ._progress import Progress, shown
 from ._question import chosen_model, wanted
-from ._types import BaseLinesValue, Counting, Model, N, Strength, Value
+from ._types import Asked, BaseLinesValue, Counting, Model, N, Strength, Value
 from ._types import Decided as DecidedModel
 from ._words import in_python, noted, shown_notes
 
 if TYPE_CHECKING:
     import matplotlib.axes
     import networkx
+    from typing_extensions import Unpack
 
 _log = logging.getLogger("viewcert")
 
 
 @dataclass(frozen=True)
-class Joint:
+class Joint(Generic[N]):
     """Two components that touch.
 
     Attributes
@@ -81,9 +81,9 @@ class Joint:
 
     components: Tuple[int, int]
     how: str
-    nodes: Tuple[Node, ...]
-    pairs: Tuple[Tuple[Node, Node], ...]
-    through: Tuple[Tuple[Node, Node, Node], ...]
+    nodes: Tuple[N, ...]
+    pairs: Tuple[Tuple[N, N], ...]
+    through: Tuple[Tuple[N, N, N], ...]
     inliers: Optional[Tuple[int, ...]]
     freedom: int
     meaning: str
@@ -211,7 +211,7 @@ class Verdict(Generic[N]):
     _native: Union[Decided, Kept]
     _question: Question
     _components: Optional[List[FrozenSet[N]]]
-    _joints: Optional[Tuple[Joint, ...]]
+    _joints: Optional[Tuple[Joint[N], ...]]
 
     def __init__(self) -> None:
         raise TypeError("verdicts come from viewcert.verify")
@@ -429,43 +429,32 @@ class Verdict(Generic[N]):
         found.extend(frozenset([nodes[number]]) for number in alone)
         return found
 
-    @overload
-    def pairs_of(
-        self, component: int, *, as_array: Literal[False] = ...
-    ) -> List[Tuple[N, N]]: ...
-    @overload
-    def pairs_of(self, component: int, *, as_array: Literal[True]) -> NDArray[np.uint32]: ...
-    def pairs_of(
-        self, component: int, *, as_array: bool = False
-    ) -> Union[List[Tuple[N, N]], NDArray[np.uint32]]:
+    def pairs_of(self, component: int) -> List[Tuple[N, N]]:
         """The pairs of a component, of a camera-point graph its observations.
 
         Parameters
         ----------
         component : int
             Its place in `components`.
-        as_array : bool
-            Whether they are rows of node numbers, as in `Graph.pairs`: of millions of pairs in a
-            tenth of a second instead of ten.
 
         Raises
         ------
-        IndexError
+        InputError
             If there is no such component.
         """
-        count = self._native.component_count()
-        if component < 0 or component >= count:
-            if count <= component < len(self.components):
-                return np.empty((0, 2), dtype=np.uint32) if as_array else []
-            raise IndexError(f"no component {component}: there are {len(self.components)}")
+        return self._graph._named(self.pair_indices_of(component))
+
+    def pair_indices_of(self, component: int) -> NDArray[np.uint32]:
+        """The same as rows of places in `Graph.nodes`, as in `Graph.pair_indices`."""
+        component = whole("component", component, -(2**31), 2**31 - 1)
+        if not 0 <= component < len(self._parts_found()):
+            raise Absent(f"no component {component}: there are {len(self._parts_found())}")
+        if component >= self._native.component_count():
+            # A camera that sees no point.
+            return np.empty((0, 2), dtype=np.uint32)
         members, ends = self._native.components()
         first = int(ends[component - 1]) if component else 0
-        inside = members[first : int(ends[component])]
-        pairs = _native.pairs_among(self._graph._native, inside)
-        if as_array:
-            return pairs
-        nodes = self._graph.nodes
-        return [(nodes[i], nodes[j]) for i, j in pairs.tolist()]
+        return _native.pairs_among(self._graph._native, members[first : int(ends[component])])
 
     def component_of_pair(self, pairs: Any = None) -> NDArray[np.int32]:
         """The component of every pair, as its place in `components`; a pair is in just one.
@@ -473,8 +462,8 @@ class Verdict(Generic[N]):
         Parameters
         ----------
         pairs : optional
-            Pairs of the graph, in any order and orientation: an array of shape (m, 2) if nodes are
-            integers, or any pairs of nodes. The answer has the same order. Without it: `Graph.pairs`.
+            Pairs of nodes, in any order and orientation: what :func:`verify` takes as pairs, arrays too. The answer
+            has the same order. Without it: `Graph.pairs`.
 
         Raises
         ------
@@ -564,7 +553,7 @@ class Verdict(Generic[N]):
         return cast("networkx.Graph[N]", self.annotate(self._graph.to_networkx()))
 
     @property
-    def joints(self) -> Tuple[Joint, ...]:
+    def joints(self) -> Tuple[Joint[N], ...]:
         """Where components touch, and what that leaves free."""
         if self._joints is None:
             by_text = self._graph._by_text()
@@ -607,10 +596,10 @@ class Verdict(Generic[N]):
 
         Raises
         ------
-        OSError
+        InputError
             If it cannot be written; the file is then as it was before.
         """
-        self._native.write(os.fspath(path), self.certificate(embed_graph=embed_graph))
+        self._native.write(path_of("path", path), self.certificate(embed_graph=embed_graph))
 
     def to_dict(self, *, list_components: bool = False) -> Dict[str, Any]:
         """What ``verify --json`` prints (with `list_components`: and ``--components``). Components
@@ -743,70 +732,27 @@ def _restored(graph: Graph[Any], question: Question, said: Dict[str, Any]) -> Ve
     return Verdict._of(graph, Kept(graph._native, question, said), question)
 
 
+#: A graph or verdict whose nodes have a type.
+Given = Union[Verdict[N], Graph[N], Sequence[Tuple[N, N]]]
+
+
 @overload
 def verify(
-    graph: Graph[N],
+    graph: Given[N],
     *,
-    model: Optional[Model] = ...,
-    seed: int = ...,
-    planar: bool = ...,
-    solutions: Optional[Counting] = ...,
-    rational: bool = ...,
-    numerator: int = ...,
-    denominator: int = ...,
-    prime: Optional[int] = ...,
-    contraction: bool = ...,
-    counting: bool = ...,
     parts: Optional[Iterable[Iterable[N]]] = ...,
     displacements: Union[Mapping[Tuple[N, N], Sequence[Number]], Iterable[Iterable[N]], None] = ...,
     name: Optional[str] = ...,
-    time_limit: Optional[float] = ...,
-    memory_limit: Optional[int] = ...,
-    progress: Progress = ...,
-) -> Verdict[N]: ...
-@overload
-def verify(
-    graph: Sequence[Tuple[N, N]],
-    *,
-    model: Optional[Model] = ...,
-    seed: int = ...,
-    planar: bool = ...,
-    solutions: Optional[Counting] = ...,
-    rational: bool = ...,
-    numerator: int = ...,
-    denominator: int = ...,
-    prime: Optional[int] = ...,
-    contraction: bool = ...,
-    counting: bool = ...,
-    parts: Optional[Iterable[Iterable[N]]] = ...,
-    displacements: Union[Mapping[Tuple[N, N], Sequence[Number]], Iterable[Iterable[N]], None] = ...,
-    name: Optional[str] = ...,
-    time_limit: Optional[float] = ...,
-    memory_limit: Optional[int] = ...,
-    progress: Progress = ...,
+    **asked: Unpack[Asked],
 ) -> Verdict[N]: ...
 @overload
 def verify(
     graph: Any,
     *,
-    model: Optional[Model] = ...,
-    seed: int = ...,
-    planar: bool = ...,
-    solutions: Optional[Counting] = ...,
-    rational: bool = ...,
-    numerator: int = ...,
-    denominator: int = ...,
-    prime: Optional[int] = ...,
-    contraction: bool = ...,
-    counting: bool = ...,
     parts: Optional[Iterable[Iterable[Any]]] = ...,
-    displacements: Union[
-        Mapping[Tuple[Any, Any], Sequence[Number]], Iterable[Iterable[Any]], None
-    ] = ...,
+    displacements: Union[Mapping[Tuple[Any, Any], Sequence[Number]], Iterable[Iterable[Any]], None] = ...,
     name: Optional[str] = ...,
-    time_limit: Optional[float] = ...,
-    memory_limit: Optional[int] = ...,
-    progress: Progress = ...,
+    **asked: Unpack[Asked],
 ) -> Verdict[Any]: ...
 def verify(
     graph: Any,
@@ -836,8 +782,8 @@ def verify(
     ----------
     graph
         A graph of networkx or rustworkx (there nodes are its indices), a sparse adjacency matrix
-        of scipy (nodes are its rows), an integer array of shape (m, 2) (nodes are the integers
-        that occur), a data frame of pandas or polars with two columns (or ``source`` and
+        of scipy (nodes are its rows), an array of integers or texts of shape (m, 2), or (2, m) as an
+        ``edge_index`` (nodes are what occurs in it; one of shape (2, 2) could be both), a data frame of pandas or polars with two columns (or ``source`` and
         ``target``), an iterable of pairs of hashable nodes, which dicts of attributes may follow,
         a :class:`Graph`, or a :class:`Verdict`, which stands for its graph.
     model : {'projective', 'calibrated', 'affine', 'focal'}, optional

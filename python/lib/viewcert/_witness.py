@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from . import _native
 from ._act import _decided
 from ._arguments import whole
-from ._errors import InputError, Undecided
+from ._errors import Absent, InputError, Undecided
 from ._kept import Kept
 from ._types import N
 from ._verdict import Verdict
@@ -97,7 +97,7 @@ class Witness(Generic[N]):
 
         Raises
         ------
-        KeyError
+        InputError
             If one is no node.
         """
         found = []
@@ -203,7 +203,7 @@ class SecondScene(Generic[N]):
 
         Raises
         ------
-        KeyError
+        InputError
             If one is no node.
         """
         i, j = (_place(self.nodes, node) for node in (a, b))
@@ -224,7 +224,7 @@ def _place(nodes: Tuple[Any, ...], node: Any) -> int:
     try:
         return nodes.index(node)
     except ValueError:
-        raise KeyError(node) from None
+        raise Absent(f"{node!r} is no node of the graph") from None
 
 
 def _value(coefficients: Any, at: Fraction) -> Fraction:
