@@ -116,13 +116,6 @@ def _lists() -> list[pathlib.Path]:
     return [first, second]
 
 
-def _merged() -> str:
-    with tempfile.TemporaryDirectory(dir=_FOLDER) as folder:
-        for shard in viewcert.catalog_shards(folder, 6, 2):
-            shard.run()
-        return viewcert.catalog_merge(folder).split("seconds")[0]
-
-
 def _reconstruction() -> int:
     pycolmap = pytest.importorskip("pycolmap")
     options = pycolmap.SyntheticDatasetOptions(num_rigs=1, num_cameras_per_rig=1, num_frames_per_rig=5, num_points3D=60)
@@ -139,19 +132,13 @@ CASES: dict[str, Callable[[], Any]] = {
     "at_cameras": lambda: viewcert.at_cameras(SMALL, _places(viewcert.Graph(SMALL))).rank,
     "audit": lambda: viewcert.audit(SMALL).float_value,
     "audit_claims": lambda: [one.ruling for one in viewcert.audit_claims([{"graph": STRIP, "components": 1}])],
-    "audit_tolerances": lambda: len(viewcert.audit_tolerances([SMALL])),
     "catalog": lambda: [entry.graph6 for entry in viewcert.catalog(8)],
-    "catalog_merge": _merged,
-    "catalog_shards": lambda: len(viewcert.catalog_shards(tempfile.mkdtemp(dir=_FOLDER), 6, 3)),
-    "census": lambda: viewcert.census(8).counts,
     "check": lambda: viewcert.check(_strip()).rank,
     "check_all": lambda: viewcert.check_all(_archive()).verified,
     "check_at_cameras": lambda: viewcert.check_at_cameras(
         viewcert.at_cameras(SMALL, _places(viewcert.Graph(SMALL)))
     ).rank,
     "check_intrinsics": lambda: viewcert.check_intrinsics(_intrinsics(SMALL)).rank,
-    "compare": lambda: viewcert.compare(SMALL).agree,
-    "conditions": lambda: len(viewcert.conditions(STRIP).report()),
     "explain": lambda: viewcert.explain(_strip(), 17).components,
     "export": lambda: viewcert.export(_strip(), tempfile.mkdtemp(dir=_FOLDER)).components,
     "from_database": lambda: viewcert.from_database(_database()).sha256,
@@ -161,7 +148,6 @@ CASES: dict[str, Callable[[], Any]] = {
     "intrinsics": lambda: _intrinsics(SMALL).rank,
     "label": lambda: viewcert.label(SMALL),
     "lists": lambda: viewcert.lists(_database(), _lists()).determined,
-    "margin": lambda: viewcert.margin(SMALL, 5),
     "models": lambda: viewcert.models(STRIP).report(),
     "overview": lambda: viewcert.overview(_database()).found["pairs"],
     "read": lambda: viewcert.read(_file()).sha256,
@@ -169,7 +155,6 @@ CASES: dict[str, Callable[[], Any]] = {
     "rigidity_matrix": lambda: viewcert.rigidity_matrix(SMALL, _places(viewcert.Graph(SMALL)), "N", exact=True).shape,
     "suggest": lambda: [one.joins for one in viewcert.suggest(SMALL, 1)],
     "surplus": lambda: len(viewcert.surplus(STRIP)),
-    "sweep": lambda: [row.largest for row in viewcert.sweep(viewcert.from_database(_database()), [5, 15])],
     "tracks_from_database": lambda: viewcert.tracks_from_database(_database(), 2).sha256,
     "tracks_from_reconstruction": _reconstruction,
     "verify": lambda: _strip().rank,
