@@ -131,7 +131,7 @@ pub(crate) fn merge(
     reading: Reading,
 ) -> PyResult<(String, String)> {
     let [_, options] = reading.options()?;
-    let (job, threads) = (Job::new(py)?, work::threads()?);
+    let job = Job::new(py)?;
     let session = Session::under(job.watch());
     let work = move || -> anyhow::Result<(String, String)> {
         let asked = MergeAsked {
@@ -146,7 +146,7 @@ pub(crate) fn merge(
         })?;
         Ok((String::from_utf8(json)?, String::from_utf8(text)?))
     };
-    let found = job.run(py, move || threads.install(work))?;
+    let found = job.run(py, work)?;
     found.map_err(|error| of_any(&error))
 }
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from dataclasses import dataclass
 from typing import Any, Dict, Generic, List, Optional, Sequence, Tuple, get_args, overload
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 import json
 import os
+from contextlib import ExitStack
 from dataclasses import dataclass, field
 from decimal import Decimal
 from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Tuple, Union, get_args
@@ -272,9 +273,9 @@ class Merge:
 
 
 def merge(
-    one: Path,
-    other: Path,
-    database: Optional[Path] = None,
+    one: Union[Path, pycolmap.Reconstruction],
+    other: Union[Path, pycolmap.Reconstruction],
+    database: Union[Path, pycolmap.Database, None] = None,
     *,
     pipeline: Optional[Pipeline] = None,
     min_inliers: Optional[int] = None,
@@ -286,9 +287,9 @@ def merge(
 
     Parameters
     ----------
-    one, other : str or path
-        The folders of the models.
-    database : str or path, optional
+    one, other : str, path or pycolmap.Reconstruction
+        The folders of the models, or models that are open in pycolmap.
+    database : str, path or pycolmap.Database, optional
         The database of both: its tracks may fix what the models alone leave free.
     pipeline, min_inliers, min_views, max_spread, rigs
         As of :func:`read`.
@@ -310,7 +311,14 @@ def merge(
         min_weight=None,
         skip_loops=False,
     )
-    said, text = _native.merge(os.fspath(one), os.fspath(other), None if database is None else os.fspath(database), reading)
+    with ExitStack() as opened:
+        given = {"one": one, "other": other, **({} if database is None else {"database": database})}
+        files = {what: opened.enter_context(on_disk(each, what)) for what, each in given.items()}
+        paths = [file for file, _ in files.values()]
+        said, text = _native.merge(paths[0], paths[1], paths[2] if len(paths) > 2 else None, reading)
+    for what, (file, name) in files.items():
+        if name is not None:
+            said, text = (words.replace(file, f"{name} `{what}`") for words in (said, text))
     found = json.loads(said)
     misfit = found["misfit"] or {"agree": None, "disagree": ()}
     return Merge(
