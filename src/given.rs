@@ -40,9 +40,8 @@ What --given FILE holds: what is known besides the pairs, one thing on each line
   centre A X Y Z             its centre (affine: its viewing direction). One for each camera of the graph: what
                              is determined at these very cameras is answered besides.
 A table may say the same: name,x,y,z or name,qw,qx,qy,qz,tx,ty,tz or name,p11,..,p34 in its head. A COLMAP model (a folder) as
-FILE gives the poses of its images, an array (n, 3, 4) or (n, 3) of NumPy (.npy, .npz) or 3 x 4 x n, n x 3 of MATLAB the
-matrices or centres of cameras that are called by numbers (version 7.3 with the feature hdf5); all but a folder may be
-standard input (-). A COLMAP database as FILE gives the positions of its pose priors, without the vectors.
+FILE gives the poses of its images; all but a folder may be standard input (-). Arrays are for Python:
+viewcert.at_cameras(graph, array). A COLMAP database as FILE gives the positions of its pose priors, without the vectors.
 Cameras are called as in the graph; fields, quotes and comments are those of edge lists. Vectors stand
 on all lines or on none, in the frame of the directions: with them the answer is about these vectors,
 without them about vectors in general position. Parts and displacements do not go together.

@@ -20,12 +20,10 @@ use viewcert_session::exit::{GOOD, ends_run};
 pub struct InputArguments {
     /// Format of the graphs [default: what they can only be, by their content].
     ///
-    /// An edge list has 2, 3, 9 or 14 fields on every line, separated by blanks, tabs or a
-    /// comma: two labels and numbers, which are ignored (weights, relative poses). Names with
-    /// blanks stand in quotes; # and % begin comments; heads like source,target are recognised, and
-    /// say which columns of a larger table hold the pairs. What could be something else (a line of
-    /// counts, names with numbers, an adjacency list, files of other programs) is refused, by name
-    /// where it has one. `--format edges` reads the first two fields of every line all the same.
+    /// A list of pairs has one separator and 2 fields on every line, 3 with a number, or 9 or 14 with
+    /// a relative pose; all labels are integers, or none is a number. A table has a head that names two
+    /// images or nodes, like source,target or image1,image2. Everything else is refused, with what was
+    /// seen. `--format edges` reads the first two fields of every line all the same.
     /// The first line of every report says how the file was read.
     #[arg(long, value_enum, help_heading = READING, hide = true)]
     format: Option<FormatName>,
@@ -39,8 +37,8 @@ pub struct InputArguments {
     /// Leave out pairs of a camera with itself, which are refused otherwise.
     #[arg(long, help_heading = READING, hide = true)]
     skip_loops: bool,
-    /// Variable of a MATLAB file, or array of an .npz file [default: A, the only square matrix, or
-    /// the only two columns of numbers of cameras].
+    /// Variable of a MATLAB file [default: A, the only square matrix, or the only two columns of
+    /// numbers of cameras].
     #[arg(long, value_name = "NAME", help_heading = READING, hide = true)]
     variable: Option<String>,
     /// Which pairs of a COLMAP database count: those that this mapper takes [default: incremental].
@@ -86,12 +84,10 @@ enum FormatName {
     Graph6,
     /// One graph a line, incremental ones among them.
     Sparse6,
-    /// Adjacency matrix, MATLAB 5 or 7.3 (HDF5).
+    /// Adjacency matrix, MATLAB 5.
     Matlab,
     /// Adjacency matrix, MatrixMarket coordinates.
     MatrixMarket,
-    /// Array of NumPy, or an archive of them (.npz), also SciPy's sparse matrices.
-    Numpy,
     /// Two names of images a line and nothing else: COLMAP's lists of matches, pairs of hloc.
     #[value(alias = "hloc-pairs")]
     MatchList,
@@ -106,23 +102,11 @@ enum FormatName {
     OpenmvgPairs,
     /// Matches of features as COLMAP imports them: two names, and below them two numbers a line.
     RawMatches,
-    /// A matrix as text: match counts, zeros and ones.
-    TextMatrix,
     /// Pose graph of g2o.
     G2o,
-    /// Node-link graph in JSON, of networkx or d3.
-    #[value(alias = "json")]
-    NodeLink,
-    /// Graph of Gephi in XML.
-    Gexf,
-    /// Lists of keys and values, of networkx, igraph and Gephi.
-    Gml,
     /// Graph in XML.
     #[value(name = "graphml")]
     GraphMl,
-    /// Graph of Graphviz.
-    #[value(alias = "graphviz")]
-    Dot,
 }
 
 impl InputArguments {
@@ -201,19 +185,13 @@ impl InputArguments {
                 FormatName::Sparse6 => Format::Sparse6,
                 FormatName::Matlab => Format::Matlab,
                 FormatName::MatrixMarket => Format::MatrixMarket,
-                FormatName::Numpy => Format::Numpy,
                 FormatName::MatchList => Format::MatchList,
                 FormatName::Glomap => Format::Glomap,
                 FormatName::OneDsfm => Format::OneDsfm,
                 FormatName::OpenmvgPairs => Format::Document(Document::Stars),
                 FormatName::RawMatches => Format::Document(Document::RawMatches),
-                FormatName::TextMatrix => Format::Document(Document::TextMatrix),
                 FormatName::G2o => Format::Document(Document::G2o),
-                FormatName::NodeLink => Format::Document(Document::NodeLink),
-                FormatName::Gexf => Format::Document(Document::Gexf),
-                FormatName::Gml => Format::Document(Document::Gml),
                 FormatName::GraphMl => Format::Document(Document::GraphMl),
-                FormatName::Dot => Format::Document(Document::Dot),
             }),
             variable: self.variable.clone(),
             pipeline: self.pipeline.map(|pipeline| match pipeline {

@@ -17,7 +17,7 @@ use viewcert_session::exit::{GOOD, NOT};
 #[derive(Args)]
 pub(super) struct ModelsArguments {
     /// Graphs: edge lists, graph6 and sparse6 (a graph a line), MatrixMarket and MATLAB 5
-    /// matrices, NumPy, GraphML, GML and more, also compressed, and COLMAP's databases; `-` is
+    /// matrices, GraphML and more, also compressed, and COLMAP's databases; `-` is
     /// standard input.
     #[arg(required = true, value_name = "GRAPH")]
     graphs: Vec<PathBuf>,

@@ -184,7 +184,7 @@ fn nothing_is_made_of_another_kind_of_input() {
         "image.png",
         "document.pdf",
         "page.html",
-        "arrays.npz",
+        "npz-a.npz",
         "settings.json",
         "empty.txt",
         "graph.pickle",

@@ -1,6 +1,6 @@
 //! All tests of the program, as one program: forty took more than four times as long to build (benches/README.md).
 //!
-//! `cargo test --features hdf5 --test all golden::` runs one file.
+//! `cargo test --test all golden::` runs one file.
 
 mod common;
 

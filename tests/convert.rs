@@ -47,15 +47,18 @@ fn names_are_comments_and_nodes_without_pairs_lines() {
         b"c a\n\"b \xc3\xa9\" a\n\"d\"\n",
         &["convert", "--format", "edges", "-"],
     );
-    assert_eq!(run.out, "# 0 a\n# 1 b \u{e9}\n# 2 c\n# 3 d\n0 1\n0 2\n3\n");
+    assert_eq!(
+        run.out,
+        "# viewcert pairs\n# 0 a\n# 1 b \u{e9}\n# 2 c\n# 3 d\n0 1\n0 2\n3\n"
+    );
     // Numbers are names unless they are those of the nodes.
     assert_eq!(
         verify_with(b"5 7\n7 9\n", &["convert", "-"]).out,
-        "# 0 5\n# 1 7\n# 2 9\n0 1\n1 2\n"
+        "# viewcert pairs\n# 0 5\n# 1 7\n# 2 9\n0 1\n1 2\n"
     );
     assert_eq!(
         verify_with(b"1 2\n0 1\n", &["convert", "-"]).out,
-        "0 1\n1 2\n"
+        "# viewcert pairs\n0 1\n1 2\n"
     );
     assert_eq!(
         verify_with(b"1 2\n0 1\n", &["convert", "-", "--to", "graph6"]).out,
@@ -85,6 +88,22 @@ fn from_a_graph_with_names_to_both_checkers() {
     // What was converted is a graph for the program as well.
     assert_eq!(verify(&["check", &certificate, &pairs]).code, 0);
     assert_eq!(verify(&["check", &certificate, house]).code, 0);
+}
+
+/// What is written is read again as the same graph, also where nothing else says that these are pairs: single
+/// nodes, lines that look like a table or like counts.
+#[test]
+fn what_is_written_is_read() {
+    for graph in ["@", "D??", "C`", "DQ?", "E?~o", "Bw", "FCOf?"] {
+        let written = verify_with(graph.as_bytes(), &["convert", "-"]).out;
+        let again = verify_with(written.as_bytes(), &["convert", "-", "--to", "graph6"]);
+        assert_eq!(
+            (again.code, &*again.out),
+            (0, &*format!("{graph}\n")),
+            "{written}{}",
+            again.err
+        );
+    }
 }
 
 #[test]
@@ -126,5 +145,6 @@ fn what_cannot_be_converted() {
     let path: String = (0..200_000).map(|k| format!("{k} {}\n", k + 1)).collect();
     let run = verify_with(path.as_bytes(), &["convert", "-", "--to", "graph6"]);
     assert_eq!((run.code, &*run.out), (3, ""), "{}", run.err);
-    assert_eq!(verify_with(path.as_bytes(), &["convert", "-"]).out, path);
+    let written = verify_with(path.as_bytes(), &["convert", "-"]).out;
+    assert_eq!(written, format!("# viewcert pairs\n{path}"));
 }

@@ -26,13 +26,12 @@ use std::process::{Command, Stdio};
 use std::sync::LazyLock;
 
 /// Files of other programs that transcripts read.
-const FOREIGN: [&str; 8] = [
+const FOREIGN: [&str; 7] = [
     "bundle.out",
     "graph.graphml",
     "head.csv",
     "mat-plain.mat",
     "model.nvm",
-    "npz-several.npz",
     "points3D.txt",
     "problem.bal",
 ];

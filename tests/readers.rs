@@ -309,7 +309,7 @@ mod edge_lists {
                     };
                     let taken = named.read.taken.as_deref().unwrap_or_default();
                     // Tables whose pairs stand elsewhere, and other formats, have tests of their own.
-                    let elsewhere = !taken.ends_with("columns 1 and 2") || text.contains(';');
+                    let elsewhere = !taken.contains("columns 1 and 2") || text.contains(';');
                     if named.read.format != "edge list" || elsewhere {
                         continue;
                     }
@@ -318,6 +318,10 @@ mod edge_lists {
                         .iter()
                         .any(|note| note.starts_with("the first line is a head"));
                     let expected = the_page::read(text.as_bytes(), head);
+                    // Columns that are ignored may be empty.
+                    if head && expected.is_none() {
+                        continue;
+                    }
                     prop_assert_eq!(
                         Some(listed(&named)),
                         expected,

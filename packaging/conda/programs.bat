@@ -1,3 +1,3 @@
 @echo on
-cargo install --locked --no-track --path . --features hdf5 --root "%LIBRARY_PREFIX%"
+cargo install --locked --no-track --path . --root "%LIBRARY_PREFIX%"
 if errorlevel 1 exit 1

@@ -1,4 +1,4 @@
 #!/usr/bin/env bash
 # The programs into $PREFIX. VIEWCERT_PROFILE=dev takes less time.
 set -euo pipefail
-cargo install --locked --no-track --path . --features hdf5 --root "$PREFIX" --profile "${VIEWCERT_PROFILE:-release}"
+cargo install --locked --no-track --path . --root "$PREFIX" --profile "${VIEWCERT_PROFILE:-release}"

@@ -7,7 +7,7 @@ use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 use std::sync::Arc;
 use viewcert::graph::{Graph as Pairs, Labels};
-use viewcert_formats::kept;
+use viewcert_formats::pickled;
 
 /// What kind of labels a graph has: the first of numbers, integers, or names of all nodes or of the
 /// cameras, which points follow.
@@ -32,7 +32,7 @@ pub(crate) fn about_graph(graph: &Graph) -> PyResult<(Kind, String)> {
         Labels::Names(names) => Kind::Names((false, texts(names))),
         Labels::CamerasAndPoints(names) => Kind::Names((true, texts(names))),
     };
-    let about = kept::about(input).map_err(|error| InputError::new_err(error.to_string()))?;
+    let about = pickled::about(input).map_err(|error| InputError::new_err(error.to_string()))?;
     Ok((kind, about))
 }
 
@@ -67,7 +67,7 @@ pub(crate) fn graph_kept(
     let rows = view.rows().into_iter().map(|row| (row[0], row[1]));
     let rows: Vec<(u32, u32)> = rows.collect();
     let graph = work::briefly(py, || Pairs::new(nodes, rows))?.map_err(|error| wrong(&error))?;
-    match kept::with_about(name.clone(), graph, labels, about) {
+    match pickled::with_about(name.clone(), graph, labels, about) {
         Ok(input) => Ok(Graph(Arc::new(input))),
         Err(error) => Err(wrong(&error)),
     }

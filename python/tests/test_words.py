@@ -93,8 +93,8 @@ def test_words(program: str, python: str) -> None:
 def test_messages_of_files(tmp_path: pathlib.Path) -> None:
     path = tmp_path / "table.csv"
     contents = {
-        "a b\nb b\n": "skip_loops=True",
-        "3\n0 1\n1 2\n2 0\n": "format='openmvg-pairs'",
+        "a.jpg b.jpg\nb.jpg b.jpg\n": "skip_loops=True",
+        "0 1 2 3\n1 2 3\n2 3\n": "format='openmvg-pairs'",
     }
     for text, word in contents.items():
         path.write_text(text)

@@ -13,7 +13,7 @@ use crate::colmap::{self, DatabaseError};
 use crate::edge_list::fields::{Field, integer};
 use crate::edge_list::{BYTE_ORDER_MARK, text};
 use crate::error::{Fault, Place, Problem, ReadError};
-use crate::own;
+use crate::own_files;
 use crate::recognise::SAMPLE;
 use viewcert::graph::Labels;
 
@@ -91,7 +91,7 @@ pub(crate) fn for_each_line(
     let read = input.read_to_end(&mut bytes);
     read.map_err(|error| Place::Input.fault(error.into()))?;
     let bytes = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(&bytes);
-    if let Some(problem) = own::known(&bytes[..bytes.len().min(SAMPLE)]) {
+    if let Some(problem) = own_files::known(&bytes[..bytes.len().min(SAMPLE)]) {
         return Err(Place::Input.fault(problem));
     }
     if bytes.starts_with(colmap::MAGIC) {

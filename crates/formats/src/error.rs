@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::colmap::DatabaseError;
+use crate::edge_list::refusal::Refusal;
 use crate::inflate::{Damaged, Inflated};
 use crate::sparse6::Sparse6Error;
 use viewcert::graph::graph6::Graph6Error;
@@ -74,7 +75,7 @@ impl fmt::Display for Place {
     }
 }
 
-/// What is wrong with an input. Rows and columns of matrices count from 1, in files of NumPy from 0.
+/// What is wrong with an input. Rows and columns of matrices count from 1.
 #[derive(Debug, thiserror::Error)]
 pub enum Problem {
     /// The operating system refuses the file.
@@ -104,6 +105,9 @@ pub enum Problem {
         /// What to do about it.
         advice: &'static str,
     },
+    /// A text that is no list of pairs, or may be something else.
+    #[error("{}", .0.what)]
+    Refused(Refusal),
     /// Compressed data that end too early or contradict their checksum.
     #[error("the compressed data are damaged: {0}")]
     Compressed(#[source] std::io::Error),
@@ -113,9 +117,6 @@ pub enum Problem {
     /// No nodes at all.
     #[error("the graph is empty")]
     NoNodes,
-    /// A head and nothing below it.
-    #[error("the first line is a head, and there are no pairs")]
-    OnlyHead,
     /// More nodes than a graph can hold.
     #[error("the graph has more than 4294967295 nodes")]
     TooManyNodes,
@@ -243,17 +244,6 @@ pub enum Problem {
         /// How many there are.
         missing: usize,
     },
-    /// An array that is not one of cameras or centres.
-    #[error(
-        "an array of shape {0:?} holds neither cameras (n, 3, 4) nor centres (n, 3) of the {1} nodes"
-    )]
-    NoCameraArray(Vec<u64>, usize),
-    /// Several arrays of cameras in one file.
-    #[error("several arrays may be the cameras: {0}")]
-    SeveralCameraArrays(String),
-    /// No array of cameras in a file of several.
-    #[error("no array holds cameras ({0}) or centres (n, 3) of the {1} nodes")]
-    NoCameraArrays(&'static str, usize),
     /// A pair of a camera with itself.
     #[error("camera {0} is paired with itself")]
     SelfLoop(String),
@@ -278,12 +268,6 @@ pub enum Problem {
     /// A quote where none belongs; what is wrong with it.
     #[error("a quote (\") {0}")]
     Quote(&'static str),
-    /// A field without letters and digits, or a comment of another language.
-    #[error("`{}` is neither the name of a camera nor a number", shown(.0))]
-    NoLabel(String),
-    /// A field that looks like a part of something else.
-    #[error("`{}` is punctuated like another format", shown(.0))]
-    Punctuated(String),
     /// A name of nothing.
     #[error("a camera has an empty name")]
     EmptyLabel,
@@ -304,95 +288,6 @@ pub enum Problem {
         /// How many are made.
         limit: usize,
     },
-    /// A line with another number of fields than the format that was asked for has.
-    #[error("the line has {found} field{}, and lines of this format have {expected}", if *.found == 1 {""} else {"s"})]
-    OtherColumns {
-        /// How many fields.
-        found: usize,
-        /// How many the format has.
-        expected: usize,
-    },
-    /// Names of images with blanks in them that are in no quotes.
-    #[error(
-        "the line has {found} fields, and two of them end like names of images: names with blanks"
-    )]
-    Blanks {
-        /// How many fields.
-        found: usize,
-    },
-    /// A line with a number of fields that no edge list has.
-    #[error("not an edge list: the line has {found} field{}, and lines of an edge list have 2, 3, 9 or 14", if *.found == 1 {""} else {"s"})]
-    Columns {
-        /// How many fields.
-        found: usize,
-    },
-    /// A line with another number of fields than the first.
-    #[error("not an edge list: the line has {found} field{}, line {line} has {expected}", if *.found == 1 {""} else {"s"})]
-    ColumnsDiffer {
-        /// How many fields.
-        found: usize,
-        /// How many the first line has.
-        expected: usize,
-        /// Where that one stands.
-        line: u64,
-    },
-    /// A field behind the second that is no number.
-    #[error("not an edge list: field {column}, `{}`, is no number", shown(.field))]
-    NoNumber {
-        /// The field.
-        field: String,
-        /// Its place in the line, from 1.
-        column: usize,
-    },
-    /// A head that names something else than cameras.
-    #[error("the head calls a column `{}`: this is no list of pairs", shown(.name))]
-    NoCameras {
-        /// The name.
-        name: String,
-    },
-    /// A head whose first two names are no pair, and below it nothing that tells.
-    #[error("the head `{}` does not say which two columns hold the pairs", shown(.head))]
-    NoPairOfNames {
-        /// Its first names.
-        head: String,
-    },
-    /// A column that is asked for and not there.
-    #[error("there is no column `{}`; there are {columns}", shown(.column))]
-    NoColumn {
-        /// The column, as it was named.
-        column: String,
-        /// Those that are there.
-        columns: String,
-    },
-    /// A field of a pair without a name.
-    #[error("field {column}, where the name of a camera belongs, is empty")]
-    NoName {
-        /// Its place in the line, from 1.
-        column: usize,
-    },
-    /// No column that holds weights.
-    #[error("--min-weight: there is no column of weights")]
-    NoWeights,
-    /// A weight that is no number.
-    #[error("--min-weight: field {column}, `{}`, is no number", shown(.field))]
-    NoWeight {
-        /// The field.
-        field: String,
-        /// Its place in the line, from 1.
-        column: usize,
-    },
-    /// Nine or fourteen fields that are no relative pose.
-    #[error("not an edge list: lines of {columns} fields are pairs with relative poses, and there is no {}", if *.columns == 9 {"unit quaternion in fields 3 to 6"} else {"rotation in fields 3 to 11"})]
-    NoPose {
-        /// How many fields.
-        columns: usize,
-    },
-    /// A text whose first two fields are pairs all the same.
-    #[error(transparent)]
-    PairsFirst(Box<Problem>),
-    /// A first line with names of columns that are cameras as well.
-    #[error("the line could be a head, but its names occur as cameras")]
-    HeadOrPair,
     /// A line that contradicts all earlier ones.
     #[error("the lines before are {format}, and this one is not: {why}")]
     Unlike {
@@ -400,12 +295,6 @@ pub enum Problem {
         format: &'static str,
         /// Why this one is not.
         why: Box<Problem>,
-    },
-    /// A line that no edge list has.
-    #[error("the line is longer than {limit} bytes")]
-    LineTooLong {
-        /// The longest line that is read.
-        limit: usize,
     },
     /// A line that no machine holds.
     #[error("the line is longer than {limit} bytes")]
@@ -426,13 +315,8 @@ pub enum Problem {
     #[error("a MATLAB file of version 4 is not read here")]
     MatlabFour,
     /// A MATLAB file of level 7.3, which is HDF5.
-    #[error("a MATLAB file of version 7.3 (HDF5) is not read here")]
+    #[error("HDF5, as MATLAB writes it in version 7.3, is not read here")]
     MatlabHdf5,
-    /// HDF5, in a program that was built without the feature `hdf5`.
-    #[error(
-        "this is HDF5, as MATLAB writes it in version 7.3, and this program was built without reading it"
-    )]
-    NoHdf5,
     /// The file ends before what it promises.
     #[error("the file is truncated: {0}")]
     Truncated(String),
@@ -491,15 +375,9 @@ pub enum Problem {
         /// The variables that are there, described.
         present: String,
     },
-    /// HDF5 that is damaged, or of a kind that is not read.
-    #[error("it cannot be read as HDF5: {0}")]
-    Hdf5(String),
     /// Cells, structures, text.
     #[error("a {0} is not a numeric matrix")]
     NotNumeric(&'static str),
-    /// The same in HDF5, whose types have names of their own.
-    #[error("a {0} is not a numeric matrix")]
-    NotNumericNamed(String),
     /// Complex numbers.
     #[error("the matrix is complex")]
     Complex,
@@ -516,9 +394,6 @@ pub enum Problem {
         /// The entry.
         value: f64,
     },
-    /// An array of another shape.
-    #[error("the array is {}, and neither a square matrix nor two columns of numbers of cameras", if .0.is_empty() {"one value"} else {.0})]
-    NoMatrixShape(String),
     /// A number that is none of a camera, where two columns are pairs.
     #[error("in two columns of numbers, {0} is no number of a camera")]
     NoPairs(f64),
@@ -540,20 +415,10 @@ pub enum Problem {
         /// Its column, likewise.
         column: u32,
     },
-    /// Two different entries where a pair has one weight.
-    #[error("the matrix is not symmetric: entries ({row}, {column}) and ({column}, {row}) differ")]
-    Uneven {
-        /// Row of one of them, from 1.
-        row: u32,
-        /// Its column, from 1.
-        column: u32,
-    },
     /// A camera paired with itself, in a matrix.
     #[error("diagonal entry ({0}, {0}) is non-zero: a camera paired with itself")]
     Diagonal(u32),
 }
-
-const PAIRS: &str = "write one pair a line, separated by a blank: the names of two cameras";
 
 /// What to do with tracks where pairs are read.
 pub(super) const TRACKS: &str =
@@ -561,8 +426,9 @@ pub(super) const TRACKS: &str =
 
 impl Problem {
     /// What whoever gave the input can do about it.
-    pub fn remedy(&self) -> &'static str {
+    pub fn remedy(&self) -> &str {
         match self {
+            Self::Refused(refusal) => &refusal.remedy,
             Self::Unreadable(error) if error.kind() == std::io::ErrorKind::IsADirectory => {
                 "name the files in it; a folder is read as a model of COLMAP alone, with --tracks"
             }
@@ -577,7 +443,7 @@ impl Problem {
             Self::Inflated(_) => {
                 "if you trust it, unpack it first (`gunzip`, `bunzip2`, `unxz`, `unzstd --memory=2048MB`)"
             }
-            Self::NoNodes | Self::OnlyHead => "give at least one pair of cameras",
+            Self::NoNodes => "give at least one pair of cameras",
             Self::Empty | Self::NothingGiven(_) => {
                 "write on each line `part` and cameras whose relative position is known, `displacement` and two cameras, or `position` and a camera"
             }
@@ -616,10 +482,6 @@ impl Problem {
             Self::MissingCameras { .. } => {
                 "give every node a camera, or leave the pairs of those that have none out of the graph"
             }
-            Self::SeveralCameraArrays(_) => "save the one that is meant, alone",
-            Self::NoCameraArray(..) | Self::NoCameraArrays(..) => {
-                "give an array with an entry for each node, in their order; nodes with names take a text file, a COLMAP model, or an .npz file with an array `names`"
-            }
             Self::SomeVectors => {
                 "give vectors and positions on all lines, and the verdict is about these, or on none, and it is about vectors in general position"
             }
@@ -648,38 +510,9 @@ impl Problem {
                 "mend the file, or write one pair a line: two names and nothing else"
             }
             Self::TooManyJoined { .. } => "write the pairs one by one",
-            Self::OtherColumns { .. } => "quote names with blanks, or name another format",
-            Self::Blanks { .. } => {
-                "put such names in quotes (`\"left wall.jpg\" roof.jpg`); COLMAP's lists of pairs \
-                 cannot hold them: rename the images"
-            }
             Self::EmptyField => "put a field on either side of every comma",
             Self::Quote(_) => "quote whole fields only, and double the quotes within them",
-            Self::NoLabel(_)
-            | Self::Columns { .. }
-            | Self::ColumnsDiffer { .. }
-            | Self::NoPose { .. } => PAIRS,
-            Self::Punctuated(_) => {
-                "remove the punctuation; if it belongs to the name, quote the name"
-            }
-            Self::NoNumber { .. } => {
-                "further columns hold numbers (quote names with blanks), or a head says which columns are the pair"
-            }
-            Self::NoCameras { .. } | Self::NoPairOfNames { .. } => {
-                "if other columns hold the pairs, name them with --columns"
-            }
-            Self::NoColumn { .. } => {
-                "name the two columns of the pairs by their names or their numbers from 1 (--columns img1,img2)"
-            }
-            Self::NoName { .. } => "give the camera a name, or remove the line",
-            Self::NoWeights => "name it third: --columns img1,img2,score",
-            Self::NoWeight { .. } => {
-                "mend the field, or name the column of the weights third: --columns img1,img2,score"
-            }
-            Self::PairsFirst(_) => "if the first two fields are the pair, say --columns 1,2",
-            Self::HeadOrPair => "delete the head; if it is a pair, say --format edges",
             Self::Unlike { .. } => "name the format with --format, or mend the line",
-            Self::LineTooLong { .. } => "put one pair on a line, or name the format with --format",
             Self::LineTooLarge { .. } => "write the graph as an edge list or in sparse6",
             Self::Graph6(_) | Self::Sparse6(_) => {
                 "write the line again, or have it written: `verify convert GRAPH --to graph6` (where other \
@@ -688,13 +521,10 @@ impl Problem {
             Self::MatrixMarket(_) => {
                 "write it again as `%%MatrixMarket matrix coordinate pattern symmetric`"
             }
-            Self::Hdf5(_) => {
-                "copy the file again, or save the matrix in another format (MATLAB: -v7; Python: numpy.save)"
+            Self::MatlabFour => "save it in MATLAB with -v7 or -v6",
+            Self::MatlabHdf5 => {
+                "in Python: viewcert.verify(h5py.File('FILE')['A'][:]); or save it in MATLAB with -v7"
             }
-            Self::NoHdf5 => {
-                "build it with it (`cargo install --path . --features hdf5`), take the Python package, which reads it, or save the matrix in another format (MATLAB: -v7; Python: numpy.save)"
-            }
-            Self::MatlabFour | Self::MatlabHdf5 => "save it in MATLAB with -v7 or -v6",
             Self::Truncated(_) | Self::Corrupt(_) => "copy or write the file again",
             Self::Database(error) => error.remedy(),
             Self::NoTracks => {
@@ -707,23 +537,20 @@ impl Problem {
             Self::NoSuchVariable { .. } | Self::ChooseVariable { .. } => {
                 "name the adjacency matrix with --variable"
             }
-            Self::NotNumeric(_) | Self::NotNumericNamed(_) | Self::NotSquare(_) => {
+            Self::NotNumeric(_) | Self::NotSquare(_) => {
                 "give a square matrix, of which rows and columns are cameras, or two columns of pairs (of several variables: --variable)"
             }
             Self::Complex => "save its real part, or the matrix of its non-zero entries",
             Self::NotANumber { .. } => "put zero where there is no pair",
-            Self::Uneven { .. } => {
-                "write A + A' if only one triangle is filled; if this is no matrix of counts, write one pair a line; if these are pairs with weights, say `--format edges`"
-            }
             Self::NoPairs(_) => {
                 "write pairs as natural numbers, or a square matrix with 1 for a pair and 0 for none"
             }
-            Self::NoMatrix { .. } | Self::NoMatrixShape(_) => {
+            Self::NoMatrix { .. } => {
                 "save the adjacency matrix, or the pairs as integers in two columns"
             }
             Self::Asymmetric { .. } => {
                 "if the direction of pairs does not matter, fill in the other triangle: save A ~= 0 | \
-                 A' ~= 0 in MATLAB, (A != 0) + (A != 0).T in NumPy and SciPy"
+                 A' ~= 0 in MATLAB, (A != 0) + (A != 0).T in SciPy"
             }
             Self::Diagonal(_) => "set the diagonal to zero; --skip-loops leaves it out",
         }
@@ -738,27 +565,7 @@ impl Problem {
     pub(super) fn is_grammar(&self) -> bool {
         matches!(
             self,
-            Self::EmptyField
-                | Self::Quote(_)
-                | Self::NoLabel(_)
-                | Self::Punctuated(_)
-                | Self::Columns { .. }
-                | Self::ColumnsDiffer { .. }
-                | Self::NoNumber { .. }
-                | Self::NoPose { .. }
-                | Self::SelfLoop(_)
-                | Self::LineTooLong { .. }
-        )
-    }
-
-    /// Whether it is about the number of fields, or about what stands behind the second.
-    pub(super) fn is_of_columns(&self) -> bool {
-        matches!(
-            self,
-            Self::Columns { .. }
-                | Self::ColumnsDiffer { .. }
-                | Self::NoNumber { .. }
-                | Self::NoPose { .. }
+            Self::Refused(_) | Self::EmptyField | Self::Quote(_) | Self::SelfLoop(_)
         )
     }
 
@@ -776,6 +583,12 @@ impl Problem {
             Self::Within { problem, .. } => problem.is_size(),
             _ => false,
         }
+    }
+}
+
+impl From<Refusal> for Problem {
+    fn from(refusal: Refusal) -> Self {
+        Self::Refused(refusal)
     }
 }
 

@@ -9,8 +9,8 @@
 
 use std::io::{BufRead, BufReader, Read};
 
+use crate::edge_list::columns::ListOptions;
 use crate::edge_list::fields::is_number;
-use crate::edge_list::layout::ListOptions;
 use crate::edge_list::text;
 use crate::error::{Fault, Place, Problem};
 use crate::matrix::{List, Matrix, Places, are_pairs};
@@ -114,9 +114,7 @@ impl File {
     /// One more line, with its end.
     fn take(&mut self, line: &[u8]) -> Result<(), Problem> {
         if line.len() as u64 > LINE_LIMIT {
-            return Err(Problem::LineTooLong {
-                limit: LINE_LIMIT as usize,
-            });
+            return Err(Problem::LineTooLarge { limit: LINE_LIMIT });
         }
         let bytes = line.strip_suffix(b"\n").unwrap_or(line);
         let bytes = bytes.strip_suffix(b"\r").unwrap_or(bytes);

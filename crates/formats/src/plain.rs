@@ -3,13 +3,15 @@
 //! In: a graph with its names, what is given. Out: text.
 
 use crate::NamedGraph;
+use crate::edge_list::table::OWN;
 use std::fmt::Write;
 use viewcert::Known;
 use viewcert::certificate::hex;
 
-/// A graph as pairs: first what its nodes are called, if not by their numbers. O(n + m).
+/// A graph as pairs, below a comment by which [`read_graphs`](crate::read_graphs) knows them: first what its
+/// nodes are called, if not by their numbers. O(n + m).
 pub fn pairs(input: &NamedGraph) -> String {
-    let (graph, mut text) = (&input.graph, String::new());
+    let (graph, mut text) = (&input.graph, format!("{OWN}\n"));
     let mut is_alone = vec![true; graph.nodes()];
     for (node, number) in (0..).zip(0..graph.nodes()) {
         let (label, number) = (input.labels.label(node), number.to_string());

@@ -20,7 +20,7 @@ use viewcert_session::outputs;
 #[derive(Args)]
 pub struct CompareArguments {
     /// Graphs: edge lists, graph6 and sparse6 (a graph a line), MatrixMarket and MATLAB 5
-    /// matrices, NumPy, GraphML, GML and more, also compressed; `-` is standard input.
+    /// matrices, GraphML and more, also compressed; `-` is standard input.
     #[arg(required = true, value_name = "GRAPH")]
     graphs: Vec<PathBuf>,
     #[command(flatten)]

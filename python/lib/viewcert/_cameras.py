@@ -388,7 +388,7 @@ def at_cameras(verdict: Any, cameras: Cameras) -> AtCameras:
         For each node a matrix of 3 rows and 4 columns, or a vector of 3 numbers, its centre (in the affine
         model its viewing direction). Or an array of them, of shape (n, 3, 4) or (n, 3), in the order of
         the `graph.nodes` of the verdict. Or the path of a file or folder with them: a COLMAP model, text,
-        ``.csv``, ``.npy``, ``.npz``, ``.mat``; or a reconstruction that is open in pycolmap. All numbers are taken exactly, floats as the fractions
+        ``.csv``; or a reconstruction that is open in pycolmap. All numbers are taken exactly, floats as the fractions
         they are, and texts as decimals or fractions; fractions from :mod:`fractions` and sympy are
         taken too.
 

@@ -435,15 +435,15 @@ def read(
     Parameters
     ----------
     path : str or path
-        An edge list, graph6, sparse6, a MatrixMarket or MATLAB matrix, GraphML, DOT, g2o,
-        node-link JSON, GML, GEXF, NumPy, a COLMAP database; also compressed. With `tracks` a
+        A list of pairs, graph6, sparse6, a MatrixMarket or MATLAB matrix, GraphML, g2o, a COLMAP
+        database; also compressed. (Other files are for networkx, NumPy and h5py, whose graphs and
+        arrays :func:`verify` takes.) With `tracks` a
         database, a model (the folder or its points3D file), Bundler's ``bundle.out``, BAL, NVM,
         or OpenMVG's matches.
     format : str, optional
         The format of files that do not show it: ``'edges'``, ``'graph6'``, ``'sparse6'``,
-        ``'matlab'``, ``'matrix-market'``, ``'numpy'``, ``'match-list'``, ``'glomap'``, ``'1dsfm'``,
-        ``'openmvg-pairs'``, ``'raw-matches'``, ``'text-matrix'``, ``'g2o'``, ``'node-link'``,
-        ``'graphml'``, ``'gml'``, ``'gexf'`` or ``'dot'``.
+        ``'matlab'``, ``'matrix-market'``, ``'match-list'``, ``'glomap'``, ``'1dsfm'``,
+        ``'openmvg-pairs'``, ``'raw-matches'``, ``'g2o'`` or ``'graphml'``.
     variable : str, optional
         The variable of a MATLAB file.
     pipeline, min_inliers : optional

@@ -33,8 +33,8 @@ Errors = Literal["raise", "return"]
 
 #: Formats of files that hold one graph.
 Format = Literal[
-    "edges", "matlab", "matrix-market", "numpy", "match-list", "glomap", "1dsfm", "openmvg-pairs",
-    "raw-matches", "text-matrix", "g2o", "node-link", "graphml", "gml", "gexf", "dot",
+    "edges", "matlab", "matrix-market", "match-list", "glomap", "1dsfm", "openmvg-pairs",
+    "raw-matches", "g2o", "graphml",
 ]
 
 #: Formats of files with a graph on every line.

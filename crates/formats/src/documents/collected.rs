@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use crate::edge_list::PAIR_LIMIT;
-use crate::edge_list::layout::ListOptions;
+use crate::edge_list::columns::ListOptions;
 use crate::edge_list::nodes::Index;
 use crate::error::{Fault, Place, Problem};
 use crate::read_as::{Parsed, ReadAs};

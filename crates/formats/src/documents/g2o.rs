@@ -10,43 +10,44 @@ use std::collections::BTreeMap;
 
 use crate::documents::collected::Collected;
 use crate::documents::malformed;
+use crate::edge_list::columns::ListOptions;
 use crate::edge_list::fields::integer;
-use crate::edge_list::layout::ListOptions;
 use crate::error::{Fault, Place, Problem};
 use crate::read_as::Parsed;
 use viewcert::wording::counted;
 
 const FORMAT: &str = "g2o";
 
-/// Tags of poses, and how many numbers follow the id if that is certain.
-const POSES: [(&str, Option<usize>); 5] = [
-    ("VERTEX_SE2", Some(3)),
-    ("VERTEX_SE3:QUAT", Some(7)),
-    ("VERTEX_SE3:EXPMAP", None),
-    ("VERTEX_SIM3:EXPMAP", None),
-    ("VERTEX_CAM", None),
+/// Tags of poses.
+const POSES: [&str; 5] = [
+    "VERTEX_SE2",
+    "VERTEX_SE3:QUAT",
+    "VERTEX_SE3:EXPMAP",
+    "VERTEX_SIM3:EXPMAP",
+    "VERTEX_CAM",
 ];
 
-/// Tags of edges between two poses, and how many numbers follow the ids if that is certain: the
-/// measurement and the upper triangle of its information matrix.
-const PAIRS: [(&str, Option<usize>); 6] = [
-    ("EDGE_SE2", Some(3 + 6)),
-    ("EDGE_SE3:QUAT", Some(7 + 21)),
-    ("EDGE_SE3:EXPMAP", None),
-    ("EDGE_SIM3:EXPMAP", None),
-    ("EDGE_SE2_OFFSET", None),
-    ("EDGE_SE3_OFFSET", None),
+/// Tags of edges between two poses.
+const PAIRS: [&str; 6] = [
+    "EDGE_SE2",
+    "EDGE_SE3:QUAT",
+    "EDGE_SE3:EXPMAP",
+    "EDGE_SIM3:EXPMAP",
+    "EDGE_SE2_OFFSET",
+    "EDGE_SE3_OFFSET",
 ];
 
-/// Whether a text begins like a pose graph: names of images begin in any way, but one in capitals
-/// is a tag.
+/// Whether a text begins like a pose graph: with a tag in capitals and a number.
 pub(super) fn is_g2o(head: &str) -> bool {
     let first = head.lines().map(str::trim_start);
     let mut first = first.filter(|line| !line.is_empty() && !line.starts_with('#'));
     first.next().is_some_and(|line| {
-        ["VERTEX_", "EDGE_", "PARAMS_"]
+        let mut words = line.split_ascii_whitespace();
+        let (tag, id) = (words.next().unwrap_or_default(), words.next());
+        let is_tag = ["VERTEX_", "EDGE_", "PARAMS_"]
             .iter()
-            .any(|tag| line.starts_with(tag))
+            .any(|start| tag.starts_with(start));
+        is_tag && id.is_some_and(|id| integer(id).is_some())
     })
 }
 
@@ -62,15 +63,11 @@ pub(super) fn read(text: &str, options: &ListOptions) -> Result<Parsed, Fault> {
         let Some(tag) = words.next().filter(|tag| !tag.starts_with('#')) else {
             continue;
         };
-        let known = |tags: &[(&str, Option<usize>)]| {
-            tags.iter()
-                .find_map(|&(known, numbers)| (known == tag).then_some(numbers))
-        };
-        if let Some(numbers) = known(&POSES) {
-            let [id] = ids(tag, &mut words, numbers).map_err(fault)?;
+        if POSES.contains(&tag) {
+            let [id] = ids(tag, &mut words).map_err(fault)?;
             collected.list(id).map_err(fault)?;
-        } else if let Some(numbers) = known(&PAIRS) {
-            let [a, b] = ids(tag, &mut words, numbers).map_err(fault)?;
+        } else if PAIRS.contains(&tag) {
+            let [a, b] = ids(tag, &mut words).map_err(fault)?;
             let a = collected.node(a).map_err(fault)?;
             let b = collected.node(b).map_err(fault)?;
             collected.pair(a, b).map_err(fault)?;
@@ -119,11 +116,10 @@ pub(super) fn read(text: &str, options: &ListOptions) -> Result<Parsed, Fault> {
 /// How many tags are named.
 const MOST_TAGS: usize = 10;
 
-/// The ids behind a tag, and no fewer or more numbers behind these than belong there.
+/// The ids behind a tag. Nothing that follows them matters, and a cut line may lack it.
 fn ids<'t, const N: usize>(
     tag: &str,
     words: &mut impl Iterator<Item = &'t str>,
-    numbers: Option<usize>,
 ) -> Result<[&'t str; N], Problem> {
     let mut ids = [""; N];
     for id in &mut ids {
@@ -137,14 +133,7 @@ fn ids<'t, const N: usize>(
         }
         *id = word;
     }
-    let found = words.count();
-    match numbers {
-        Some(expected) if expected != found => Err(malformed(
-            FORMAT,
-            format!("{tag} has {expected} numbers behind its ids, and {found} are there"),
-        )),
-        _ => Ok(ids),
-    }
+    Ok(ids)
 }
 
 /// Whether a word may be the tag of a type that is not known here.

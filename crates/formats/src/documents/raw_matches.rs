@@ -5,17 +5,12 @@
 //! has a match.
 
 use crate::documents::collected::Collected;
+use crate::edge_list::columns::ListOptions;
 use crate::edge_list::fields::integer;
-use crate::edge_list::is_image;
-use crate::edge_list::layout::ListOptions;
-use crate::error::{Fault, Place, Problem};
+use crate::edge_list::names::is_image;
+use crate::error::{Fault, Place};
 use crate::read_as::Parsed;
 use viewcert::wording::counted;
-
-const MIXED: &str =
-    "lines of two names stand among lines of two integers: these could be matches of features";
-const MIXED_ADVICE: &str = "if the integers are features of the images above them, say --format raw-matches; if all \
-     lines are pairs, --format edges";
 
 /// A line of such a list.
 enum Line<'a> {
@@ -38,8 +33,8 @@ fn line(text: &str) -> Option<Line<'_>> {
     }
 }
 
-/// Whether a text that begins like this has both kinds of lines and nothing else, and begins with
-/// names.
+/// Whether a text that begins like this has both kinds of lines and nothing else, begins with names, and
+/// is sure to be such a list.
 pub(super) fn is_raw(head: &str, whole: bool) -> bool {
     let end = if whole {
         Some(head.len())
@@ -59,7 +54,7 @@ pub(super) fn is_raw(head: &str, whole: bool) -> bool {
             Some(Line::Match) => matches += 1,
         }
     }
-    names > 1 && matches > 0
+    names > 1 && matches > 0 && is_sure(&head[..end.unwrap_or(0)])
 }
 
 /// Whether it is sure what the integers are: all names are those of images, or every block but the
@@ -82,13 +77,7 @@ fn is_sure(text: &str) -> bool {
 }
 
 /// Reads the pairs of images with a match, or with as many as are asked for.
-pub(super) fn read(text: &str, asked: bool, options: &ListOptions) -> Result<Parsed, Fault> {
-    if !asked && !is_sure(text) {
-        return Err(Place::Input.fault(Problem::Doubtful {
-            what: MIXED,
-            advice: MIXED_ADVICE,
-        }));
-    }
+pub(super) fn read(text: &str, options: &ListOptions) -> Result<Parsed, Fault> {
     let mut blocks: Vec<(u64, [&str; 2], u64)> = Vec::new();
     for (text, number) in text.lines().zip(1..) {
         let wrong = |what| Place::Line(number).fault(super::malformed("raw matches", what));

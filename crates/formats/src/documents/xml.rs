@@ -1,5 +1,4 @@
-//! Graphs in XML: GraphML ("GraphML Primer", graphdrawing.org), and GEXF ("GEXF File Format",
-//! gexf.net), which Gephi writes.
+//! GraphML ("GraphML Primer", graphdrawing.org).
 //!
 //! Nodes are called by their `label` or `name` if these name them, and else by their ids. What else
 //! is said of nodes and edges, ports, and directions are of no concern; graphs within nodes, edges of
@@ -15,27 +14,17 @@ use quick_xml::reader::Reader;
 
 use crate::documents::collected::{Collected, NAMES};
 use crate::documents::{line_of, malformed};
-use crate::edge_list::layout::ListOptions;
+use crate::edge_list::columns::ListOptions;
 use crate::error::{Fault, Place, Problem};
 use crate::read_as::Parsed;
 
-/// The formats in messages.
-pub(super) const GRAPHML: &str = "GraphML";
-pub(super) const GEXF: &str = "GEXF";
+/// The format in messages.
+const GRAPHML: &str = "GraphML";
 
 /// Whether a text begins like GraphML.
 pub(super) fn is_graphml(head: &str) -> bool {
-    has_root(head, "graphml")
-}
-
-/// Whether a text begins like GEXF.
-pub(super) fn is_gexf(head: &str) -> bool {
-    has_root(head, "gexf")
-}
-
-fn has_root(head: &str, name: &str) -> bool {
     head.trim_start().starts_with('<')
-        && head.match_indices(name).any(|(at, word)| {
+        && head.match_indices("graphml").any(|(at, word)| {
             // Behind `<`, or behind a prefix like `g:`.
             let before = head[..at].rfind(['<', ' ', '\n', '>']);
             before.is_some_and(|start| head[start..].starts_with('<'))
@@ -47,7 +36,7 @@ fn has_root(head: &str, name: &str) -> bool {
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Element {
     Root,
-    /// A graph, or a list of its nodes or edges.
+    /// A graph.
     Graph,
     /// A node or an edge.
     Member,
@@ -57,15 +46,10 @@ enum Element {
     Other,
 }
 
-/// Reads a graph of the format GraphML or GEXF, whose name in capitals that is.
-pub(super) fn read(
-    text: &str,
-    format: &'static str,
-    options: &ListOptions,
-) -> Result<Parsed, Fault> {
+/// Reads a graph.
+pub(super) fn read(text: &str, options: &ListOptions) -> Result<Parsed, Fault> {
     let mut reader = Reader::from_str(text);
     let mut tree = Tree {
-        format,
         collected: Collected::new(options),
         ..Tree::default()
     };
@@ -77,7 +61,7 @@ pub(super) fn read(
             Err(error) => {
                 let at = reader.error_position() as usize;
                 let place = Place::Line(line_of(text.as_bytes(), at));
-                return Err(place.fault(malformed(format, error.to_string())));
+                return Err(place.fault(malformed(GRAPHML, error.to_string())));
             }
             Ok(Event::Decl(declaration)) => {
                 let encoding = declaration.encoding().and_then(Result::ok);
@@ -102,7 +86,7 @@ pub(super) fn read(
             Ok(Event::GeneralRef(entity)) if tree.is_within_name() => {
                 let named = resolve_xml_entity(&entity).map(str::to_owned);
                 let given = entity.resolve_char_ref().ok().flatten().map(String::from);
-                let what = || malformed(format, format!("the entity `{}` is not known", &*entity));
+                let what = || malformed(GRAPHML, format!("the entity `{}` is not known", &*entity));
                 let character = named.or(given).ok_or_else(what).map_err(fault)?;
                 tree.text(&character);
             }
@@ -115,7 +99,7 @@ pub(super) fn read(
         return Err(Place::Input.fault(Problem::Truncated(what)));
     }
     if !tree.has_graph {
-        return Err(Place::Input.fault(malformed(format, "there is no graph")));
+        return Err(Place::Input.fault(malformed(GRAPHML, "there is no graph")));
     }
     tree.collected.finish()
 }
@@ -123,7 +107,6 @@ pub(super) fn read(
 /// What has been read, and where.
 #[derive(Default)]
 struct Tree {
-    format: &'static str,
     path: Vec<Element>,
     collected: Collected,
     /// Keys of data that name nodes, and the places of their attributes in [`NAMES`].
@@ -140,12 +123,12 @@ impl Tree {
     /// Takes in an element that begins here.
     fn open(&mut self, start: &BytesStart) -> Result<Element, Problem> {
         let name = start.local_name();
-        let gexf = self.format == GEXF;
-        let malformed = |what: &str| malformed(self.format, what);
+        let malformed = |what: &str| malformed(GRAPHML, what);
         let element = match (self.path.last(), name.as_ref()) {
-            (None, "graphml") if !self.has_root && !gexf => self.root(),
-            (None, "gexf") if !self.has_root && gexf => self.root(),
-            (None, _) if gexf => return Err(malformed("the root is not one `gexf`")),
+            (None, "graphml") if !self.has_root => {
+                self.has_root = true;
+                Element::Root
+            }
             (None, _) => return Err(malformed("the root is not one `graphml`")),
             (Some(Element::Root), "key") => {
                 self.key(start)?;
@@ -157,22 +140,12 @@ impl Tree {
             }
             (Some(Element::Root), "graph") => {
                 self.has_graph = true;
-                let attribute_name = if gexf {
-                    "defaultedgetype"
-                } else {
-                    "edgedefault"
-                };
-                self.directed = attribute(start, attribute_name)?.as_deref() == Some("directed");
+                self.directed = attribute(start, "edgedefault")?.as_deref() == Some("directed");
                 Element::Graph
             }
-            (Some(Element::Graph), "nodes" | "edges") if gexf => Element::Graph,
             (Some(Element::Graph), "node") => {
-                let id = required(start, "id", self.format)?;
-                let node = self.collected.list(&id)?;
-                self.node = Some(node);
-                if let Some(label) = attribute(start, "label")?.filter(|_| gexf) {
-                    self.collected.name("label", node, label);
-                }
+                let id = required(start, "id")?;
+                self.node = Some(self.collected.list(&id)?);
                 Element::Member
             }
             (Some(Element::Graph), "edge") => {
@@ -183,22 +156,17 @@ impl Tree {
             (Some(Element::Graph), "hyperedge") => {
                 return Err(malformed("edges of more than two ends are not read"));
             }
-            (Some(Element::Member), "graph" | "nodes") => {
+            (Some(Element::Member), "graph") => {
                 return Err(malformed("graphs within nodes are not read"));
             }
             (Some(Element::Member), "data") => self.data(start)?,
-            (Some(Element::Member), "port" | "attvalues") => {
+            (Some(Element::Member), "port") => {
                 self.collected.ignore(name.as_ref());
                 Element::Other
             }
             _ => Element::Other,
         };
         Ok(element)
-    }
-
-    fn root(&mut self) -> Element {
-        self.has_root = true;
-        Element::Root
     }
 
     /// Takes in a declaration of data, if they name nodes.
@@ -252,22 +220,16 @@ impl Tree {
     }
 
     fn edge(&mut self, start: &BytesStart) -> Result<(), Problem> {
-        let source = required(start, "source", self.format)?;
-        let target = required(start, "target", self.format)?;
-        let gexf = self.format == GEXF;
-        let (attribute_name, yes) = if gexf {
-            ("type", "directed")
-        } else {
-            ("directed", "true")
-        };
-        let directed = match attribute(start, attribute_name)? {
-            Some(word) => word == yes,
+        let source = required(start, "source")?;
+        let target = required(start, "target")?;
+        let directed = match attribute(start, "directed")? {
+            Some(word) => word == "true",
             None => self.directed,
         };
         if directed {
             self.collected.directed();
         }
-        for ignored in ["sourceport", "targetport", "weight"] {
+        for ignored in ["sourceport", "targetport"] {
             if attribute(start, ignored)?.is_some() {
                 self.collected.ignore(ignored);
             }
@@ -292,11 +254,11 @@ fn attribute(start: &BytesStart, name: &str) -> Result<Option<String>, Problem> 
     Ok(None)
 }
 
-fn required(start: &BytesStart, name: &str, format: &'static str) -> Result<String, Problem> {
+fn required(start: &BytesStart, name: &str) -> Result<String, Problem> {
     let missing = || {
         let element = start.local_name();
         let what = format!("this `{}` has no `{name}`", element.as_ref());
-        malformed(format, what)
+        malformed(GRAPHML, what)
     };
     attribute(start, name)?.ok_or_else(missing)
 }

@@ -63,12 +63,42 @@ impl Field {
 /// # Errors
 /// A comma without a field on either side, a quote where none belongs.
 pub(crate) fn split(line: &str, fields: &mut Vec<Field>) -> Result<(), Problem> {
+    split_at(line, fields, b" \t,")
+}
+
+/// What stands between the fields of a line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Separator {
+    /// Blanks, tabs and commas.
+    Any,
+    /// Blanks and tabs.
+    Blank,
+    /// This alone.
+    Byte(u8),
+}
+
+impl Separator {
+    /// Splits a line.
+    ///
+    /// # Errors
+    /// As [`split`] and [`split_by`].
+    pub(super) fn split(self, line: &str, fields: &mut Vec<Field>) -> Result<(), Problem> {
+        match self {
+            Self::Any => split(line, fields),
+            Self::Blank => split_at(line, fields, b" \t"),
+            Self::Byte(separator) => split_by(line, separator, fields),
+        }
+    }
+}
+
+/// Splits a line at runs of blanks and tabs, and commas if these are among the `separators`.
+fn split_at(line: &str, fields: &mut Vec<Field>, separators: &[u8]) -> Result<(), Problem> {
     let bytes = line.as_bytes();
     fields.clear();
     let mut at = 0;
     loop {
         let mut commas = 0;
-        while let Some(b' ' | b'\t' | b',') = bytes.get(at) {
+        while bytes.get(at).is_some_and(|byte| separators.contains(byte)) {
             commas += usize::from(bytes[at] == b',');
             at += 1;
         }
@@ -82,7 +112,9 @@ pub(crate) fn split(line: &str, fields: &mut Vec<Field>) -> Result<(), Problem> 
         let field = if bytes[at] == b'"' {
             quoted(bytes, at, None)?
         } else {
-            let length = bytes[at..].iter().position(|b| b" \t,\"".contains(b));
+            let length = bytes[at..]
+                .iter()
+                .position(|b| *b == b'"' || separators.contains(b));
             let end = length.map_or(bytes.len(), |length| at + length);
             if bytes.get(end) == Some(&b'"') {
                 return Err(Problem::Quote("stands within a field"));

@@ -1,10 +1,9 @@
-//! Edge lists: text with one pair a line.
+//! Lists of pairs: text with one pair a line.
 //!
-//! The grammar is that of docs/input.md: fields separated by blanks, tabs or a comma,
-//! as many on each line, 2, 3, 9 or 14 of them, of which the first two are labels and the others
-//! numbers that are of no concern here; quotes, comments, a head. Tables whose pairs stand elsewhere
-//! are cut as their first lines show (`layout`). A text that could be something
-//! else is refused. Whoever knows better asks for [`Reading::Lenient`].
+//! The grammar is that of docs/input.md: one separator, as many fields on each line, and either a head that
+//! names two columns with images or nodes (`table`, `names`), or two labels, and perhaps a number or a pose,
+//! that nothing speaks against being a pair (`likely`). Everything else is refused (`refusal`). Whoever knows
+//! better asks for [`Reading::Lenient`].
 //!
 //! Nodes are numbered by their sorted labels, so that the numbering does not
 //! depend on the order of the lines: numerically if every label is a decimal
@@ -15,33 +14,33 @@
 //! cores, and integers become nodes by a bitmap of those that occur; everything else takes the
 //! general way, through an index of labels.
 
-use std::collections::HashSet;
 use std::io::{self, Read};
 
 use crate::error::{Fault, Place, Problem};
 use crate::read_as::{Parsed, ReadAs};
-use viewcert::graph::{Graph, GraphError, Labels};
+use viewcert::graph::{Graph, GraphError};
 use viewcert::wording::counted;
 
-mod counts;
+pub(super) mod columns;
 pub(super) mod decimal;
-mod doubts;
 pub(super) mod fields;
-mod heads;
-pub(super) mod layout;
-mod marks;
+mod likely;
+pub(super) mod names;
 pub(super) mod nodes;
 mod plain;
-mod plausible;
 mod poses;
-mod triangles;
+pub mod refusal;
+pub(super) mod table;
 
+use columns::ListOptions;
 use decimal::Decimal;
-use doubts::Doubts;
-use fields::{Field, integer, is_number};
-use layout::{Layout, ListOptions};
+use fields::{Field, Separator, integer, is_number};
+use likely::List;
+use names::is_image;
 use nodes::{Index, number_integers};
 use plain::{Plain, further_numbers, ignored, line_end};
+use refusal::{Refusal, head};
+use table::{Head, Layout, layout};
 
 /// The longest line that is read, with its end.
 const LINE_LIMIT: usize = 1 << 20;
@@ -51,10 +50,8 @@ const READ: usize = 8 << 20;
 pub(super) const PAIR_LIMIT: usize = i32::MAX as usize;
 /// A text that begins like this says that it is UTF-8.
 pub(super) const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
-/// How many fields a line may have.
-const COLUMNS: [usize; 4] = [2, 3, 9, 14];
-/// The first lines take the general way, so that only that one watches for what is short.
-const FIRST_LINES: usize = 16;
+/// The first lines take the general way, so that only that one watches for what is seldom.
+const FIRST_LINES: usize = 64;
 
 /// How a text is understood.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,112 +65,108 @@ pub enum Reading {
     Columns(usize),
 }
 
-/// Reads an edge list: the graph, its labels, and notes about what was merged,
-/// ignored or guessed. O(bytes + n log n + m log m); takes
-/// at most 16 bytes a pair (24 if a third column holds integers), and for labels that are not
-/// small integers an index of them.
+/// Reads a list that begins with `head`, which is all of it if `whole`: the graph, its labels, and notes
+/// about what was merged, ignored or guessed. O(bytes + n log n + m log m); takes at most 16 bytes a pair,
+/// and for labels that are not small integers an index of them.
 ///
 /// # Errors
-/// With the number of the line: whatever the grammar excludes, a pair of a label with itself, a
-/// line longer than a mebibyte. Without: an input that cannot be read, or could be something
-/// else; no pairs (read leniently: no nodes); more pairs than can be numbered.
-pub fn read(input: impl Read, reading: Reading) -> Result<Parsed, Fault> {
-    read_with(input, reading, None, &ListOptions::default())
-}
-
-/// The same, cut by a layout if it is a table, with the options of whoever asks.
+/// With the number of the line: whatever the grammar excludes, a pair of a label with itself, a line
+/// longer than a mebibyte. Without: an input that cannot be read, or could be something else; no pairs
+/// (read leniently: no nodes); more pairs than can be numbered.
 pub(super) fn read_with(
     input: impl Read,
+    (head, whole): (&[u8], bool),
     reading: Reading,
-    layout: Option<Layout>,
     options: &ListOptions,
 ) -> Result<Parsed, Fault> {
+    let layout = layout(head, whole, reading, options);
     let mut collector = Collector {
         reading,
-        layout,
+        layout: layout.map_err(|problem| no_text(head).unwrap_or(Place::Input.fault(problem)))?,
         min_weight: options.min_weight.clone(),
         skip_loops: options.skip_loops,
-        ..Collector::default()
+        head: None,
+        light: 0,
+        loops: Vec::new(),
+        comments: 0,
+        pairs: Vec::new(),
+        singles: Vec::new(),
+        names: None,
+        thirds: Vec::new(),
+        kinds: Kinds::default(),
+        line: 0,
+        first: None,
+        fields: Vec::new(),
+        lines_with_more: 0,
+        trusted: 0,
+        buffers: Vec::new(),
     };
     collector.read(input)?;
     collector.finish()
 }
 
-/// The first line with fields.
-struct First {
-    line: u64,
-    columns: usize,
-    labels: [Box<str>; 2],
-    names: Vec<Box<str>>,
-    /// It weighs less than is asked for, if it is a pair.
-    light: bool,
-    head: Head,
+/// What makes first lines no text at all.
+fn no_text(head: &[u8]) -> Option<Fault> {
+    let head = head.strip_prefix(BYTE_ORDER_MARK).unwrap_or(head);
+    // The last line may be cut within a character.
+    let end = head.iter().rposition(|&byte| byte == b'\n')?;
+    let mut lines = (1..).zip(head[..end].split(|&byte| byte == b'\n'));
+    lines.find_map(|(number, line)| {
+        let problem = text(line.strip_suffix(b"\r").unwrap_or(line)).err()?;
+        Some(Place::Line(number).fault(problem))
+    })
 }
 
-/// What the first line is.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Head {
-    /// A pair.
-    No,
-    /// A head if it looks like one besides all other lines, and a pair if not.
-    Perhaps,
-    /// A head, as a further field is no number.
-    ByColumn,
-    /// A head, as the user or its names say.
-    Sure,
+/// Reads a whole list.
+///
+/// # Errors
+/// As for files.
+pub fn read(text: &[u8], reading: Reading) -> Result<Parsed, Fault> {
+    read_with(text, (text, true), reading, &ListOptions::default())
+}
+
+/// What labels there have been in a list without a head.
+#[derive(Default)]
+struct Kinds {
+    integers: bool,
+    names: bool,
+    padded: bool,
+    /// The lengths of the integers, as long as they are one.
+    length: Option<usize>,
+    lengths: bool,
 }
 
 /// The pairs read so far.
 struct Collector {
     reading: Reading,
-    /// How lines are cut, if the text is a table.
-    layout: Option<Layout>,
+    layout: Layout,
     min_weight: Option<Decimal>,
     skip_loops: bool,
+    /// The first line, while it is a head, and its labels.
+    head: Option<(u64, [Box<str>; 2])>,
     /// Lines whose pair weighs less.
     light: u64,
-    /// Pairs of a label with itself that were left out.
-    loops: u64,
+    /// Labels of lines that pair them with themselves and were left out.
+    loops: Vec<Box<str>>,
     /// Lines that are nothing but a comment.
     comments: u64,
     /// Ends are integers as written, or node numbers of `names` once that exists.
     pairs: Vec<(u32, u32)>,
     singles: Vec<u32>,
     names: Option<Index>,
+    /// The third fields of the first pairs, if they are integers.
+    thirds: Vec<u32>,
+    kinds: Kinds,
     line: u64,
+    /// The first line with fields.
+    first: Option<u64>,
     fields: Vec<Field>,
-    first: Option<First>,
-    doubts: Doubts,
     /// Lines read leniently whose further fields were ignored.
     lines_with_more: u64,
     /// How many bytes the last plain lines have, if nothing else followed them.
     trusted: usize,
     /// Memory for the lines of a part of the text.
     buffers: Vec<Plain>,
-}
-
-impl Default for Collector {
-    fn default() -> Self {
-        Self {
-            reading: Reading::Strict,
-            layout: None,
-            min_weight: None,
-            skip_loops: false,
-            light: 0,
-            loops: 0,
-            comments: 0,
-            pairs: Vec::new(),
-            singles: Vec::new(),
-            names: None,
-            line: 0,
-            fields: Vec::new(),
-            first: None,
-            doubts: Doubts::default(),
-            lines_with_more: 0,
-            trusted: 0,
-            buffers: Vec::new(),
-        }
-    }
 }
 
 impl Collector {
@@ -211,7 +204,7 @@ impl Collector {
     /// What is wrong with the line after those that were read, which is too long: what it is
     /// says more than how long it is.
     fn long_line(&self, line: &[u8]) -> Fault {
-        let too_long = Place::Line(self.line + 1).fault(Problem::LineTooLong { limit: LINE_LIMIT });
+        let too_long = Place::Line(self.line + 1).fault(Refusal::long(LINE_LIMIT).into());
         self.text_of(self.line + 1, line).err().unwrap_or(too_long)
     }
 
@@ -239,42 +232,19 @@ impl Collector {
     /// Reads plain lines as long as there are any, and returns what follows them. What is wrong
     /// with a line is left to the general way.
     fn plain_lines<'a>(&mut self, text: &'a [u8]) -> &'a [u8] {
-        if self.names.is_some() || self.layout.is_some() {
+        let is_usual = self.layout.is_usual() && self.names.is_none();
+        if !is_usual || self.pairs.len() < FIRST_LINES {
             return text;
         }
-        let columns = match (&self.first, self.reading) {
-            (_, Reading::Lenient) => return self.parts::<true>(text, ignored),
-            (_, Reading::Columns(columns)) => columns,
-            (Some(first), Reading::Strict) if self.pairs.len() >= FIRST_LINES => first.columns,
-            _ => return text,
-        };
-        let without_more = |rest| (false, rest);
-        if columns == 2 {
-            return self.parts::<true>(text, |further| line_end(further).map(without_more));
-        }
-        if self.reading != Reading::Strict || !self.doubts.watch_thirds() {
-            return self.parts::<false>(text, |further| {
-                further_numbers(further, columns).map(|(_, rest)| (false, rest))
-            });
-        }
-        // Line by line as long as third fields matter, which is short for most texts.
-        let doubts = &mut self.doubts;
-        let mut watched = Plain::default();
-        plain::read::<false>(text, &mut watched, |further, a, b| {
-            let (third, rest) = further_numbers(further, columns)?;
-            if !doubts.watch_thirds() {
-                return None;
+        self.kinds.lengths = true;
+        match self.layout.width {
+            None => self.parts::<true>(text, ignored),
+            Some(2) => {
+                self.parts::<true>(text, |further| line_end(further).map(|rest| (false, rest)))
             }
-            let third = std::str::from_utf8(third).ok().and_then(integer);
-            doubts.third(Some([a.into(), b.into()]), third);
-            Some((false, rest))
-        });
-        self.take(&watched);
-        let rest = &text[watched.length..];
-        if self.doubts.watch_thirds() {
-            rest
-        } else {
-            self.plain_lines(rest)
+            Some(width) => self.parts::<false>(text, |further| {
+                further_numbers(further, width).map(|(_, rest)| (false, rest))
+            }),
         }
     }
 
@@ -287,18 +257,14 @@ impl Collector {
         let mut buffers = std::mem::take(&mut self.buffers);
         let mut length = 0;
         plain::read_parts::<BARE>(text, self.trusted, &mut buffers, end, |plain| {
-            self.take(plain);
+            self.line += plain.pairs.len() as u64;
+            self.lines_with_more += plain.with_more;
+            self.pairs.extend_from_slice(&plain.pairs);
             length += plain.length;
         });
         self.buffers = buffers;
         self.trusted = if length == text.len() { length } else { 0 };
         &text[length..]
-    }
-
-    fn take(&mut self, plain: &Plain) {
-        self.line += plain.pairs.len() as u64;
-        self.lines_with_more += plain.with_more;
-        self.pairs.extend_from_slice(&plain.pairs);
     }
 
     /// A line as text, without its end.
@@ -310,257 +276,158 @@ impl Collector {
     fn any_line(&mut self, line: &[u8]) -> Result<(), Fault> {
         let text = self.text_of(self.line, line)?;
         let mut fields = std::mem::take(&mut self.fields);
-        let split = match &self.layout {
-            Some(layout) => layout.split(text, &mut fields),
-            None => fields::split(text, &mut fields),
-        };
-        let done = split
-            .map_err(|problem| Place::Line(self.line).fault(problem))
-            .and_then(|()| match (&self.layout, self.reading) {
-                _ if fields.is_empty() => {
-                    self.no_fields(text);
-                    Ok(())
-                }
-                (Some(_), _) => self.table_line(text, &fields),
-                (None, Reading::Strict) => self.strict_line(text, &fields),
-                (None, Reading::Lenient) => self.lenient_line(text, &fields),
-                (None, Reading::Columns(columns)) => self.line_of(columns, text, &fields),
-            });
+        let split = self.layout.split(text, &mut fields);
+        let done = split.and_then(|()| {
+            if fields.is_empty() {
+                self.comments += u64::from(!text.trim_matches([' ', '\t']).is_empty());
+                return Ok(());
+            }
+            let is_first = self.first.is_none();
+            self.first.get_or_insert(self.line);
+            self.line_of(text, &fields, is_first)
+        });
         self.fields = fields;
-        done
+        done.map_err(|problem| Place::Line(self.line).fault(problem))
     }
 
-    /// A line that is blank or a comment.
-    fn no_fields(&mut self, text: &str) {
-        let text = text.trim_matches([' ', '\t']);
-        self.comments += u64::from(!text.is_empty());
-        if text == "#" {
-            self.doubts.lone_hash(self.pairs.len());
-        }
+    /// Whether nothing but the lines themselves says that they are pairs.
+    fn is_bare(&self) -> bool {
+        self.reading == Reading::Strict && self.layout.head == Head::None
     }
 
-    /// A line of a table: only the columns of the pair and of its weight matter.
-    fn table_line(&mut self, text: &str, fields: &[Field]) -> Result<(), Fault> {
-        let place = Place::Line(self.line);
-        let fault = |problem| Err(place.clone().fault(problem));
-        let Some(layout) = &self.layout else {
-            return Ok(());
-        };
-        let (ends, weight) = (layout.ends, layout.weight);
+    /// Takes in a line with fields.
+    fn line_of(&mut self, line: &str, fields: &[Field], is_first: bool) -> Result<(), Problem> {
         let found = fields.len();
-        // Fields between blanks may go on; those of a table may not.
-        let needed = ends.into_iter().chain(weight).max().unwrap_or(0) + 1;
-        let even = found == layout.columns || layout.separator.is_none() && found >= needed;
-        if !even {
-            let (expected, line) = (layout.columns, self.first.as_ref().map_or(1, |f| f.line));
-            return fault(Problem::ColumnsDiffer {
-                found,
-                expected,
-                line,
-            });
+        let lone = self.layout.head == Head::Own || self.layout.width.is_none();
+        if let ([only], true) = (fields, lone) {
+            let [node, _] = self.nodes([&only.text(line); 2])?;
+            self.singles.push(node);
+            return Ok(());
         }
-        let labels = ends.map(|end| fields[end]);
-        let texts = labels.map(|field| field.text(text));
-        let names = [&*texts[0], &*texts[1]];
-        if self.first.is_none() {
-            let numbered = labels.iter().any(|field| field.is_number(text));
-            let head = match &layout.head {
-                Some(_) => Head::Sure,
-                None if numbered => Head::No,
-                None => Head::Perhaps,
-            };
-            self.begin(text, fields, ends, head);
-            if head == Head::Sure {
-                return Ok(());
+        let expected = self
+            .layout
+            .width
+            .or((self.layout.head == Head::Own).then_some(2));
+        if let Some(expected) = expected.filter(|&expected| expected != found) {
+            return Err(match self.reading {
+                Reading::Columns(_) => Refusal::format(found, expected),
+                _ if is_first => Refusal::width(found, None),
+                _ => Refusal::uneven(found, expected, self.first.unwrap_or(1)),
             }
-            if head == Head::Perhaps {
-                let light = self.is_light(text, fields);
-                if let Some(first) = &mut self.first {
-                    match light {
-                        Ok(light) => first.light = light,
-                        Err(_) => first.head = Head::ByColumn,
-                    }
-                }
-                return Ok(());
-            }
+            .into());
         }
-        for (field, column) in labels.iter().zip(ends) {
-            if field.raw(text).is_empty() {
-                return fault(Problem::NoName { column: column + 1 });
-            }
-            if !field.quoted
-                && let Some(problem) = unlike_a_label(field.raw(text))
-            {
-                return fault(problem);
-            }
+        let ends = self.layout.ends.map(|end| fields[end]);
+        let labels = ends.map(|field| field.text(line));
+        let labels = [&*labels[0], &*labels[1]];
+        if is_first && self.layout.has_line() {
+            self.head = Some((self.line, labels.map(Into::into)));
+            return Ok(());
         }
-        if self.is_light(text, fields)? {
+        self.check(line, fields, ends)?;
+        self.lines_with_more += u64::from(self.layout.width.is_none() && found > 2);
+        if self.is_light(line, fields)? {
             self.light += 1;
             return Ok(());
         }
-        self.doubts.quotes(labels.iter().any(|field| field.quoted));
-        self.named(names)
+        if self.layout.width == Some(3) && self.thirds.len() == self.pairs.len() {
+            let third = fields[3 - self.layout.ends[0] - self.layout.ends[1]].text(line);
+            let third = third.parse::<u32>().ok();
+            let third = third.filter(|_| self.pairs.len() < FIRST_LINES);
+            self.thirds.extend(third);
+        }
+        self.named(labels)
     }
 
-    /// Whether the pair of a line weighs less than is asked for.
-    fn is_light(&self, text: &str, fields: &[Field]) -> Result<bool, Fault> {
-        let layout = self.layout.as_ref();
-        let column = layout.and_then(|layout| Some((layout.weight?, layout.separator)));
-        let (Some((column, separator)), Some(least)) = (column, &self.min_weight) else {
-            return Ok(false);
+    /// Refuses what is no pair of labels with numbers behind.
+    fn check(&mut self, line: &str, fields: &[Field], ends: [Field; 2]) -> Result<(), Problem> {
+        for (field, column) in ends.iter().zip(self.layout.ends) {
+            let label = field.raw(line);
+            if label.is_empty() {
+                return Err(Refusal::empty(column + 1).into());
+            }
+            if field.quoted || self.is_known(label) {
+                continue;
+            }
+            if self.reading == Reading::Strict
+                && let Some(refusal) = unlike_a_label(label)
+            {
+                return Err(refusal.into());
+            }
+            let blanks = label.contains([' ', '\t']) && !is_image(label);
+            let commas = label.contains(',') && self.layout.separator != Separator::Byte(b';');
+            if (blanks || commas) && matches!(self.layout.head, Head::None | Head::Comment) {
+                return Err(Refusal::blank(label).into());
+            }
+        }
+        if self.reading == Reading::Strict && matches!(self.layout.head, Head::None | Head::Line) {
+            for field in ends {
+                self.kind(&field.text(line))?;
+            }
+        }
+        let numbers = match (self.reading, self.layout.head) {
+            (Reading::Columns(_), _) | (Reading::Strict, Head::None) => &fields[2..],
+            _ => return Ok(()),
         };
-        let given = fields[column].text(text);
-        // Where semicolons separate, commas are points.
-        let given = match separator {
-            Some(b';') => given.replace(',', "."),
-            _ => given.into_owned(),
+        if self.layout.attributes.is_some() {
+            return Ok(());
+        }
+        let is_number = |field: &Field| match self.layout.separator {
+            // Where semicolons separate, commas are points.
+            Separator::Byte(b';') => is_number(field.raw(line).replace(',', ".").as_bytes()),
+            _ => field.is_number(line),
         };
-        match given.parse::<Decimal>() {
-            Ok(weight) => Ok(weight < *least),
-            Err(_) => Err(Place::Line(self.line).fault(Problem::NoWeight {
-                field: given,
-                column: column + 1,
-            })),
+        if let Some(at) = numbers.iter().position(|field| !is_number(field)) {
+            return Err(Refusal::no_number(&numbers[at].text(line), at + 3).into());
+        }
+        match self.is_bare() && self.pairs.len() < FIRST_LINES && !poses::are(line, numbers) {
+            true => Err(Refusal::no_pose(fields.len()).into()),
+            false => Ok(()),
         }
     }
 
-    /// Keeps the first line.
-    fn begin(&mut self, text: &str, fields: &[Field], ends: [usize; 2], head: Head) {
-        let names = fields.iter().map(|field| field.text(text).into());
-        self.first = Some(First {
-            line: self.line,
-            columns: fields.len(),
-            labels: ends.map(|end| fields[end].text(text).into()),
-            names: names.collect(),
-            light: false,
-            head,
-        });
+    /// Whether a label has been met.
+    fn is_known(&self, label: &str) -> bool {
+        let names = self.names.as_ref();
+        names.is_some_and(|names| names.nodes.contains_key(label))
     }
 
-    fn lenient_line(&mut self, text: &str, fields: &[Field]) -> Result<(), Fault> {
-        match fields {
-            [] => Ok(()),
-            [only] => {
-                let label = &*only.text(text);
-                let [node, _] = self.nodes([label, label])?;
-                self.singles.push(node);
-                Ok(())
-            }
-            [first, second, further @ ..] => {
-                let numbered = first.is_number(text) || second.is_number(text);
-                if self.line_is_first() && !numbered {
-                    self.begin(text, fields, [0, 1], Head::Perhaps);
-                    return Ok(());
-                }
-                self.lines_with_more += u64::from(!further.is_empty());
-                self.named([&*first.text(text), &*second.text(text)])
-            }
+    /// Takes note of what kind a label is; without a head all are integers, or none is a number.
+    fn kind(&mut self, label: &str) -> Result<(), Problem> {
+        let digits = label.bytes().all(|b| b.is_ascii_digit());
+        if !digits && is_number(label.as_bytes()) {
+            return Err(Refusal::no_integer(label).into());
         }
-    }
-
-    fn line_is_first(&self) -> bool {
-        self.first.is_none() && self.pairs.is_empty() && self.singles.is_empty()
-    }
-
-    fn line_of(&mut self, columns: usize, text: &str, fields: &[Field]) -> Result<(), Fault> {
-        let fault = |problem| Err(Place::Line(self.line).fault(problem));
-        let found = fields.len();
-        match fields {
-            [] => Ok(()),
-            _ if names_with_blanks(text, fields) => fault(Problem::Blanks { found }),
-            [first, second, further @ ..] if found == columns => {
-                if let Some(at) = further.iter().position(|field| !field.is_number(text)) {
-                    return fault(Problem::NoNumber {
-                        field: further[at].text(text).into_owned(),
-                        column: at + 3,
-                    });
-                }
-                self.named([&*first.text(text), &*second.text(text)])
-            }
-            _ => fault(Problem::OtherColumns {
-                found,
-                expected: columns,
-            }),
+        if self.layout.head != Head::None {
+            return Ok(());
         }
-    }
-
-    fn strict_line(&mut self, text: &str, fields: &[Field]) -> Result<(), Fault> {
-        let place = Place::Line(self.line);
-        let fault = |problem| Err(place.clone().fault(problem));
-        if names_with_blanks(text, fields) {
-            let found = fields.len();
-            return fault(Problem::Blanks { found });
+        let kinds = &mut self.kinds;
+        if digits && kinds.names || !digits && kinds.integers {
+            return Err(Refusal::mixed(label, kinds.integers).into());
         }
-        for field in fields.iter().filter(|field| !field.quoted) {
-            if let Some(problem) = unlike_a_field(field.raw(text)) {
-                return fault(problem);
-            }
-        }
-        let found = fields.len();
-        match &self.first {
-            None if !COLUMNS.contains(&found) => return fault(Problem::Columns { found }),
-            Some(first) if first.columns != found => {
-                return fault(Problem::ColumnsDiffer {
-                    found,
-                    expected: first.columns,
-                    line: first.line,
-                });
-            }
-            _ => {}
-        }
-        let (labels, further) = fields.split_at(2);
-        let no_number = further.iter().position(|field| !field.is_number(text));
-        let texts = [labels[0].text(text), labels[1].text(text)];
-        if self.first.is_none() {
-            let numbered = labels.iter().any(|field| field.is_number(text));
-            let head = match no_number {
-                _ if numbered => Head::No,
-                Some(_) => Head::ByColumn,
-                None => Head::Perhaps,
-            };
-            self.begin(text, fields, [0, 1], head);
-            let mut plain = labels.iter().filter(|field| !field.quoted);
-            let problem = plain.find_map(|field| unlike_a_label(field.raw(text)));
-            let problem = problem.or_else(|| poses::problem(text, further));
-            match problem.filter(|_| head == Head::Perhaps) {
-                Some(problem) => return fault(problem),
-                None if head != Head::No => return Ok(()),
-                None => {}
-            }
-        }
-        if let Some(at) = no_number {
-            return fault(Problem::NoNumber {
-                field: further[at].text(text).into_owned(),
-                column: at + 3,
-            });
-        }
-        if self.pairs.len() < FIRST_LINES {
-            if let Some(problem) = poses::problem(text, further) {
-                return fault(problem);
-            }
-            let bit = |field: &Field| !field.quoted && matches!(field.raw(text), "0" | "1");
-            self.doubts.short_line(fields.iter().all(bit));
-        }
-        self.doubts.quotes(labels.iter().any(|field| field.quoted));
-        if self.doubts.watch_thirds() {
-            let ends = labels[0].integer(text).zip(labels[1].integer(text));
-            let third = further.first().and_then(|field| field.integer(text));
-            self.doubts.third(ends.map(|(a, b)| [a, b]), third);
-        }
-        let known = self.names.as_ref().map(|names| names.nodes.len());
-        self.named([&*texts[0], &*texts[1]])?;
-        // Labels that were there before have been looked at.
-        if self.names.as_ref().map(|names| names.nodes.len()) != known {
-            let mut plain = labels.iter().filter(|field| !field.quoted);
-            if let Some(problem) = plain.find_map(|field| unlike_a_label(field.raw(text))) {
-                return fault(problem);
-            }
-        }
+        kinds.integers |= digits;
+        kinds.names |= !digits;
+        kinds.padded |= digits && label.len() > 1 && label.starts_with('0');
+        kinds.lengths |= *kinds.length.get_or_insert(label.len()) != label.len();
         Ok(())
     }
 
+    /// Whether the pair of a line weighs less than is asked for.
+    fn is_light(&self, line: &str, fields: &[Field]) -> Result<bool, Problem> {
+        let (Some(column), Some(least)) = (self.layout.weight, &self.min_weight) else {
+            return Ok(false);
+        };
+        let given = fields[column].text(line);
+        let given = match self.layout.separator {
+            Separator::Byte(b';') => given.replace(',', "."),
+            _ => given.into_owned(),
+        };
+        let weight = given.parse::<Decimal>();
+        let weight = weight.map_err(|_| Refusal::no_weight(&given, column + 1))?;
+        Ok(weight < *least)
+    }
+
     /// The two labels as ends of a pair, in the meaning that `pairs` has then.
-    fn nodes(&mut self, labels: [&str; 2]) -> Result<[u32; 2], Fault> {
+    fn nodes(&mut self, labels: [&str; 2]) -> Result<[u32; 2], Problem> {
         let names = match &mut self.names {
             Some(names) => names,
             names => {
@@ -572,44 +439,118 @@ impl Collector {
                 names.insert(Index::of_integers(&mut self.pairs, &mut self.singles))
             }
         };
-        let place = Place::Line(self.line);
         match (names.node(labels[0]), names.node(labels[1])) {
             (Some(a), Some(b)) => Ok([a, b]),
-            _ => Err(place.fault(Problem::TooManyNodes)),
+            _ => Err(Problem::TooManyNodes),
         }
     }
 
     /// A pair of labels. One with itself that is left out is no camera by that.
-    fn named(&mut self, labels: [&str; 2]) -> Result<(), Fault> {
-        if self.skip_loops && labels[0] == labels[1] {
-            self.loops += 1;
+    fn named(&mut self, labels: [&str; 2]) -> Result<(), Problem> {
+        if labels[0] != labels[1] {
+            let [a, b] = self.nodes(labels)?;
+            self.pairs.push((a, b));
             return Ok(());
         }
-        let [a, b] = self.nodes(labels)?;
-        self.pair(a, b)
-    }
-
-    #[inline]
-    fn pair(&mut self, a: u32, b: u32) -> Result<(), Fault> {
-        // A first line like `5 5` may be counts, which only the end of the text tells.
-        let is_first = || {
-            self.first
-                .as_ref()
-                .is_none_or(|first| first.line == self.line)
-        };
-        if a == b && !(self.reading == Reading::Strict && self.pairs.is_empty() && is_first()) {
-            return Err(self.self_loop(self.line, a));
+        if self.skip_loops {
+            self.loops.push(labels[0].into());
+            return Ok(());
         }
-        self.pairs.push((a, b));
-        Ok(())
+        // An option that leaves such lines out makes a graph of a table.
+        let is_sure = !self.is_bare() || is_image(labels[0]);
+        Err(match is_sure {
+            true => Problem::SelfLoop(labels[0].into()),
+            false => Refusal::table(format!(
+                "camera {} is paired with itself: a table, perhaps",
+                labels[0]
+            ))
+            .into(),
+        })
     }
 
-    fn self_loop(&self, line: u64, node: u32) -> Fault {
-        let label = match &self.names {
-            Some(names) => names.labels().swap_remove(node as usize).into(),
-            None => node.to_string(),
+    /// The labels by their numbers, if there are others than small integers.
+    fn labels(&self) -> Option<Vec<&str>> {
+        let names = self.names.as_ref()?;
+        let mut labels = vec![""; names.nodes.len()];
+        for (label, &node) in &names.nodes {
+            labels[node as usize] = label;
+        }
+        Some(labels)
+    }
+
+    /// What speaks against the pairs being pairs of cameras.
+    fn doubt(&self) -> Option<Refusal> {
+        let labels = self.labels();
+        let digits = |label: &str| label.bytes().all(|b| b.is_ascii_digit());
+        let values: Option<Vec<u64>> = labels.as_ref().and_then(|labels| {
+            let value = |label: &&str| label.parse().ok().filter(|_| digits(label));
+            labels.iter().map(value).collect()
+        });
+        let list = List {
+            pairs: &self.pairs,
+            labels: labels.as_deref().filter(|_| values.is_none()),
+            values,
+            loops: &self.loops,
+            left_out: self.light + self.loops.len() as u64,
+            thirds: &self.thirds,
+            width: self.layout.width.unwrap_or(2),
+            separator: self.layout.separator,
+            comments: self.comments > 0 || self.layout.attributes.is_some(),
         };
-        Place::Line(line).fault(Problem::SelfLoop(label))
+        match self.layout.head {
+            Head::None if matches!(self.reading, Reading::Columns(_)) => None,
+            Head::None => {
+                let commented = self.layout.commented.as_deref().map(Refusal::commented);
+                commented.or_else(|| list.doubt())
+            }
+            Head::Asked { line: false } => list.stands_apart(),
+            Head::Line | Head::Comment => {
+                let [first, _] = self.layout.ends;
+                let name = self
+                    .layout
+                    .names
+                    .as_ref()
+                    .map_or("", |names| &*names[first]);
+                names::is_general(name).then(|| list.are_copies()).flatten()
+            }
+            Head::Asked { line: true } | Head::Own => None,
+        }
+    }
+
+    /// Settles whether the first line is a head: then a note about it, else the pair is taken in.
+    fn head(&mut self) -> Result<Option<String>, Fault> {
+        let Some((line, labels)) = self.head.take() else {
+            return Ok(None);
+        };
+        let shown = self.layout.names.as_deref().map(head).unwrap_or_default();
+        let fault = |refusal: Refusal| Err(Place::Line(line).fault(refusal.into()));
+        let asked = self.layout.head != Head::Line;
+        let is_label = labels.iter().any(|label| self.is_known(label));
+        if is_label && !asked {
+            // Names that are labels below are those of a pair.
+            if self.layout.ends != [0, 1] || self.layout.width != Some(2) {
+                return fault(Refusal::head_or_pair(&shown));
+            }
+            self.layout.head = Head::None;
+            self.layout.names = None;
+            let names = self.labels().unwrap_or_default();
+            if let Some(number) = names.iter().find(|name| is_number(name.as_bytes())) {
+                return fault(Refusal::mixed(number, false));
+            }
+            let taken = self.nodes([&labels[0], &labels[1]]);
+            let [a, b] = taken.map_err(|problem| Place::Line(line).fault(problem))?;
+            self.pairs.insert(0, (a, b));
+            return Ok(None);
+        }
+        if self.pairs.is_empty() && self.light == 0 && self.loops.is_empty() {
+            return Err(Place::Input.fault(Refusal::only_head().into()));
+        }
+        let shapes = labels.each_ref().map(|label| names::shape(label));
+        let is_like = |name: &&str| shapes.contains(&names::shape(name));
+        if !asked && self.labels().is_some_and(|names| names.iter().any(is_like)) {
+            return fault(Refusal::head_or_pair(&shown));
+        }
+        Ok(Some(format!("the first line is a head: {shown}")))
     }
 
     fn finish(mut self) -> Result<Parsed, Fault> {
@@ -619,77 +560,23 @@ impl Collector {
         }
         let mut notes = Vec::new();
         let mut read = ReadAs::new("edge list");
-        if let Some(first) = self.first.take() {
-            let known = self.knows_first(&first);
-            let head = self.head(&first)?;
-            let is_head = head.is_some();
-            // The first line is a pair of cameras that are in no other.
-            let lone = !is_head
-                && first.head == Head::Perhaps
-                && !known
-                && !first.light
-                && first.labels[0] != first.labels[1]
-                && self.pairs.len() > 1;
-            let asked = self.layout.as_ref().is_some_and(|layout| layout.asked);
-            if let Some(head) = head {
-                read.guessed.push(head.clone());
-                notes.push(head);
-            }
-            let (pairs, names) = (&self.pairs, self.names.as_ref());
-            let strict = self.reading == Reading::Strict;
-            let doubt = self.doubts.settle(pairs, names, &first);
-            let doubt = doubt.filter(|_| strict && self.layout.is_none());
-            let lines = counts::Lines {
-                pairs,
-                names,
-                first: &first,
-                head: is_head.then(|| heads::may_be_pair(&first.labels[0], &first.labels[1])),
-                left_out: self.light + self.loops,
-            };
-            let doubt = doubt.or_else(|| lines.problem().filter(|_| !self.doubts.has_quotes()));
-            let doubt = doubt.or_else(|| plausible::problem(pairs, names));
-            let below = || {
-                let is_odd = lone && !self.doubts.has_quotes();
-                is_odd
-                    .then(|| plausible::problem(&pairs[1..], names))
-                    .flatten()
-            };
-            let doubt = doubt.or_else(below);
-            match doubt {
-                Some(problem) if strict => return Err(fault(problem)),
-                Some(problem) => notes.push(problem.to_string()),
-                None if strict && first.columns == 9 && plausible::is_one_star(pairs) => {
-                    notes.push(format!(
-                        "the first column is {} on all lines: is this a list of pairs?",
-                        first.labels[0]
-                    ));
-                }
-                None if lone && self.is_odd(asked) => notes.push(format!(
-                    "the cameras of the first line, {}, are in no other pair: delete it if it is a head",
-                    first.labels.join(" and ")
-                )),
-                None => {}
-            }
-            if let Some(&(a, b)) = self.pairs.first()
-                && a == b
-            {
-                return Err(self.self_loop(first.line, a));
-            }
-            if self.layout.is_none() && strict {
-                match first.columns {
-                    3 => read.ignored.push("column 3 (weights?)".to_owned()),
-                    columns @ 4.. => read.ignored.push(ignored_columns(columns)),
-                    _ => {}
-                }
-            }
+        if let Some(head) = self.head()? {
+            read.guessed.push(head.clone());
+            notes.push(head);
+        }
+        if self.kinds.padded && self.kinds.lengths {
+            return Err(fault(Refusal::padded().into()));
+        }
+        match self.doubt() {
+            Some(doubt) if self.reading == Reading::Strict => return Err(fault(doubt.into())),
+            Some(doubt) => notes.push(doubt.what),
+            None => {}
         }
         if self.pairs.is_empty() && self.singles.is_empty() {
             return Err(fault(Problem::NoNodes));
         }
         self.say(&mut read);
-        let odd = plausible::odd_columns(&self.pairs, self.names.as_ref());
         let Self {
-            reading,
             mut pairs,
             singles,
             names,
@@ -708,10 +595,6 @@ impl Collector {
         })?;
         read.merged = merged;
         notes.extend(crate::merged(merged));
-        if reading == Reading::Strict {
-            let has_names = matches!(labels, Labels::Names(_));
-            notes.extend(plausible::note(&graph, has_names).or(odd));
-        }
         Ok(Parsed {
             graph,
             labels,
@@ -727,23 +610,13 @@ impl Collector {
         } else {
             "numbers"
         };
-        read.taken = Some(match &self.layout {
-            Some(layout) => layout.taken(kind),
-            None => format!("{kind} in columns 1 and 2"),
-        });
+        read.taken = Some(self.layout.taken(kind));
         let mut ignore = |phrase: String| read.ignored.push(phrase);
-        if let Some(columns) = self.layout.as_ref().and_then(Layout::ignored) {
-            ignore(columns);
-        }
-        if let Reading::Columns(columns @ 3..) = self.reading {
-            ignore(ignored_columns(columns));
-        }
+        self.layout.ignored().into_iter().for_each(&mut ignore);
         let lines = |count: u64| counted(count as usize, "line");
         if self.lines_with_more > 0 {
-            ignore(format!(
-                "fields behind the second on {}",
-                lines(self.lines_with_more)
-            ));
+            let lines = lines(self.lines_with_more);
+            ignore(format!("fields behind the second on {lines}"));
         }
         if self.comments > 0 {
             ignore(format!("{} of comments", lines(self.comments)));
@@ -751,154 +624,16 @@ impl Collector {
         if let Some(least) = self.min_weight.as_ref().filter(|_| self.light > 0) {
             ignore(format!("{} with a weight below {least}", lines(self.light)));
         }
-        if self.loops > 0 {
-            let pair = if self.loops == 1 { "pairs" } else { "pair" };
-            let lines = lines(self.loops);
+        if !self.loops.is_empty() {
+            let pair = if self.loops.len() == 1 {
+                "pairs"
+            } else {
+                "pair"
+            };
+            let lines = lines(self.loops.len() as u64);
             ignore(format!("{lines} that {pair} a camera with itself"));
         }
     }
-
-    /// Whether a label of the first line, which has not been taken in, is known from another.
-    fn knows_first(&self, first: &First) -> bool {
-        let mut labels = first.labels.iter();
-        let names = self.names.as_ref();
-        names.is_some_and(|names| labels.any(|label| names.nodes.contains_key(label)))
-    }
-
-    /// Whether the first pair, which is alone, could be a head after all: the user has named columns of
-    /// several lines, or those below hang together.
-    fn is_odd(&self, asked: bool) -> bool {
-        let nodes = self.names.as_ref().map_or(0, |names| names.nodes.len());
-        let below = &self.pairs[1..];
-        asked && below.len() > 1 || plausible::hang_together(below, nodes)
-    }
-
-    /// Settles whether the first line is a head: then a note about it, else the pair is taken in.
-    fn head(&mut self, first: &First) -> Result<Option<String>, Fault> {
-        if first.head == Head::No {
-            return Ok(None);
-        }
-        let labels = [&*first.labels[0], &*first.labels[1]];
-        let known = self.knows_first(first);
-        let unlike = match &self.names {
-            Some(names) => {
-                let mut texts = vec![""; names.nodes.len()];
-                for (label, &node) in &names.nodes {
-                    texts[node as usize] = label;
-                }
-                let texts = &texts;
-                let column = |second| {
-                    let end = move |pair: &(u32, u32)| if second { pair.1 } else { pair.0 };
-                    // Lines one after another mostly have their first ends in common.
-                    let runs = self.pairs.chunk_by(move |one, next| end(one) == end(next));
-                    runs.map(move |run| texts[end(&run[0]) as usize])
-                };
-                let below = || plausible::hang_together(&self.pairs, texts.len());
-                heads::look_unlike(labels, [false, true].map(column))
-                    || !known && heads::stand_apart(labels, texts.iter().copied(), below)
-            }
-            None if self.pairs.is_empty() => {
-                heads::look_unlike(labels, [(); 2].map(|()| std::iter::empty()))
-            }
-            None => true,
-        };
-        let asked = self.layout.as_ref().is_some_and(|layout| layout.asked);
-        // A weight stands in a line with a pair.
-        let weighed = first.names[2..]
-            .iter()
-            .any(|name| is_number(name.as_bytes()));
-        let unlike = unlike && (!weighed || heads::is_pair(labels[0], labels[1]));
-        let is_head = match first.head {
-            Head::No => false,
-            Head::Perhaps => {
-                unlike && !known && !(self.pairs.is_empty() && self.reading == Reading::Lenient)
-            }
-            Head::ByColumn | Head::Sure if known && !asked => {
-                return Err(Place::Line(first.line).fault(Problem::HeadOrPair));
-            }
-            Head::ByColumn | Head::Sure => true,
-        };
-        if is_head {
-            self.doubts.head();
-            return self.is_head(first).map(Some);
-        }
-        self.line = first.line;
-        if first.light {
-            self.light += 1;
-            return Ok(None);
-        }
-        if self.skip_loops && labels[0] == labels[1] {
-            self.loops += 1;
-            return Ok(None);
-        }
-        let [a, b] = self.nodes(labels)?;
-        if a == b {
-            return Err(self.self_loop(first.line, a));
-        }
-        self.pairs.insert(0, (a, b));
-        self.doubts.one_more();
-        self.lines_with_more += u64::from(self.reading == Reading::Lenient && first.columns > 2);
-        Ok(None)
-    }
-
-    /// A note about a head, which names cameras or leaves open what it names.
-    fn is_head(&self, first: &First) -> Result<String, Fault> {
-        if self.pairs.is_empty() && self.light == 0 && self.loops == 0 {
-            return Err(Place::Input.fault(Problem::OnlyHead));
-        }
-        let asked = self.layout.as_ref().is_some_and(|layout| layout.asked);
-        let other = first.labels.iter().find(|name| heads::is_no_camera(name));
-        if let Some(name) = other.filter(|_| !asked) {
-            let name = name.to_string();
-            return Err(Place::Line(first.line).fault(Problem::NoCameras { name }));
-        }
-        let shown = first.shown();
-        if first.has_three_alike() && !asked {
-            return Err(Place::Line(first.line).fault(Problem::NoPairOfNames { head: shown }));
-        }
-        let told = asked || first.head == Head::Sure || self.reading == Reading::Lenient;
-        if !told && !self.heads_pairs(first) {
-            return Err(Place::Line(first.line).fault(Problem::NoPairOfNames { head: shown }));
-        }
-        Ok(format!("the first line is a head: {shown}"))
-    }
-
-    /// Whether a head names a pair, or what stands below its first two names looks like one; with more
-    /// than two columns, the third one has to be one of weights then.
-    fn heads_pairs(&self, first: &First) -> bool {
-        const MOST: usize = 1 << 16;
-        let [a, b] = &first.labels;
-        let weights = first.names.get(2).is_none_or(|name| heads::is_weight(name));
-        let below = || {
-            let pairs = || self.pairs.iter().take(MOST);
-            let starts: HashSet<u32> = pairs().map(|pair| pair.0).collect();
-            let images = |names: &Index| names.nodes.keys().all(|label| is_image(label));
-            pairs().any(|pair| starts.contains(&pair.1)) || self.names.as_ref().is_some_and(images)
-        };
-        heads::is_pair(a, b) || weights && (heads::could_be_pair(a, b) || below())
-    }
-}
-
-impl First {
-    /// Whether these are three names that are the same but for numbers.
-    fn has_three_alike(&self) -> bool {
-        let shapes: Vec<String> = self.names.iter().map(|name| heads::shape(name)).collect();
-        matches!(&shapes[..], [first, second, third] if first == second && second == third)
-    }
-
-    /// Its first fields.
-    fn shown(&self) -> String {
-        const SHOWN: usize = 4;
-        let mut names: Vec<&str> = self.names.iter().take(SHOWN).map(|name| &**name).collect();
-        if self.names.len() > SHOWN {
-            names.push("...");
-        }
-        names.join(",")
-    }
-}
-
-fn ignored_columns(columns: usize) -> String {
-    format!("columns 3 to {columns} (relative poses)")
 }
 
 /// Reads on until a text is as long as what is read at once, and whether it is.
@@ -906,65 +641,6 @@ fn fill(input: &mut impl Read, text: &mut Vec<u8>) -> io::Result<bool> {
     let room = READ - text.len();
     let got = input.by_ref().take(room as u64).read_to_end(text)?;
     Ok(got == room)
-}
-
-/// Whether a reader of edge lists may take a text for one. It does not if a line is such that the
-/// grammar excludes it, whatever else `verify` refuses on top of that.
-pub(super) fn may_be(text: &str) -> bool {
-    let mut fields = Vec::new();
-    let mut columns = None;
-    for line in text.lines() {
-        if fields::split(line, &mut fields).is_err() {
-            return false;
-        }
-        let [a, b, further @ ..] = &fields[..] else {
-            if fields.is_empty() {
-                continue;
-            }
-            return false;
-        };
-        let found = fields.len();
-        let mut plain = fields.iter().filter(|field| !field.quoted);
-        if !COLUMNS.contains(&found) || plain.any(|f| unlike_a_field(f.raw(line)).is_some()) {
-            return false;
-        }
-        // The first line may be a head.
-        let pair = a.text(line) != b.text(line) && further.iter().all(|f| f.is_number(line));
-        if columns
-            .replace(found)
-            .is_some_and(|columns| columns != found || !pair)
-        {
-            return false;
-        }
-    }
-    columns.is_some()
-}
-
-/// Endings of the names of images.
-const IMAGES: [&str; 12] = [
-    ".jpg", ".jpeg", ".png", ".tif", ".tiff", ".bmp", ".ppm", ".pgm", ".webp", ".heic", ".dng",
-    ".exr",
-];
-
-/// Whether a label ends like the name of an image.
-pub(super) fn is_image(name: &str) -> bool {
-    IMAGES.iter().any(|end| {
-        let start = name.len().checked_sub(end.len());
-        let tail = start.and_then(|start| name.get(start..));
-        tail.is_some_and(|tail| tail.eq_ignore_ascii_case(end))
-    })
-}
-
-/// Whether a line of more than two fields ends like the name of an image, as just one field
-/// before does: two names with blanks in them.
-fn names_with_blanks(line: &str, fields: &[Field]) -> bool {
-    let is_image = |field: &Field| !field.quoted && is_image(field.raw(line));
-    // Times of images are no parts of their names.
-    let timed = fields.len() == 4 && fields[0].is_number(line) && fields[2].is_number(line);
-    fields.len() > 2
-        && !timed
-        && fields.last().is_some_and(is_image)
-        && fields.iter().filter(|field| is_image(field)).count() == 2
 }
 
 /// Bytes as text without control characters but tabs.
@@ -986,24 +662,19 @@ pub(super) fn text(bytes: &[u8]) -> Result<&str, Problem> {
     }
 }
 
-/// Why an unquoted field is neither a label nor a number.
-fn unlike_a_field(field: &str) -> Option<Problem> {
-    let word = field.bytes().any(|b| b.is_ascii_alphanumeric() || b > 0x7f);
-    (!word || field.starts_with("//")).then(|| Problem::NoLabel(field.to_owned()))
-}
-
-/// Why an unquoted field, which is no number, is punctuated like no label but like a part of
+/// Why an unquoted field is no label: it has neither letters nor digits, or is punctuated like a part of
 /// another notation: `(1` of `(1, 2)`, `2;` of `1 2;`, `key:` of `key: value`.
-fn unlike_a_label(field: &str) -> Option<Problem> {
+fn unlike_a_label(field: &str) -> Option<Refusal> {
+    let word = field.bytes().any(|b| b.is_ascii_alphanumeric() || b > 0x7f);
+    if !word || field.starts_with("//") {
+        return Some(Refusal::no_label(field));
+    }
     let punctuated = field.ends_with([';', ':']) || !brackets_close(field);
-    punctuated.then(|| Problem::Punctuated(field.to_owned()))
+    punctuated.then(|| Refusal::punctuated(field))
 }
 
 /// Whether every bracket in a field has its partner there.
 fn brackets_close(field: &str) -> bool {
-    if !field.bytes().any(|b| b"()[]{}".contains(&b)) {
-        return true;
-    }
     let mut open = Vec::new();
     for byte in field.bytes() {
         match byte {

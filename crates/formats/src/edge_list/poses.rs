@@ -5,25 +5,21 @@
 //! read.
 
 use crate::edge_list::fields::Field;
-use crate::error::Problem;
 
 /// How far a written rotation may be from one.
 const TOLERANCE: f64 = 0.01;
 
-/// Why the fields behind a pair are no pose, if there are 7 or 12 of them.
-pub(super) fn problem(line: &str, further: &[Field]) -> Option<Problem> {
+/// Whether the fields behind a pair are a pose, if there are 7 or 12 of them.
+pub(super) fn are(line: &str, further: &[Field]) -> bool {
     let values: Vec<f64> = further
         .iter()
         .filter_map(|field| field.raw(line).parse().ok())
         .collect();
-    let is_pose = match values.len() {
+    match values.len() {
         7 => is_quaternion(&values[..4]),
         12 => is_rotation(&values[..9]),
-        _ => return None,
-    };
-    (!is_pose).then_some(Problem::NoPose {
-        columns: further.len() + 2,
-    })
+        _ => true,
+    }
 }
 
 fn is_quaternion(values: &[f64]) -> bool {

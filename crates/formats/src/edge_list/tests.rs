@@ -28,422 +28,299 @@ fn refusal(text: &[u8]) -> String {
 }
 
 #[test]
-fn separators_comments_and_line_ends() {
-    let text = b"\xef\xbb\xbf# cameras\r\n\r\n1 2\r\n2\t3\n3,1 # closes\n % aside\n\n4 , 1\n3  4";
+fn comments_and_line_ends() {
+    let text = b"\xef\xbb\xbf# cameras\r\n\r\n1 2\r\n2  3\n3 1 # closes\n % aside\n\n4\t1\n3  4";
     let (edges, labels, notes) = listed(text, Reading::Strict);
     assert_eq!(edges, [(0, 1), (0, 2), (0, 3), (1, 2), (2, 3)]);
     assert_eq!(labels, ["1", "2", "3", "4"]);
     assert!(notes.is_empty());
 }
 
+/// Each way in which a list is one: without a head.
 #[test]
-fn a_single_label_is_a_node_only_leniently() {
-    let text = b"1 2\n2 3\n  9\n";
-    assert!(refusal(text).starts_with(
-        "list.txt:3: not an edge list: the line has 1 field, line 1 has 2; write one pair a line"
-    ));
-    let (edges, labels, _) = listed(text, Reading::Lenient);
-    assert_eq!(edges, [(0, 1), (1, 2)]);
-    assert_eq!(labels, ["1", "2", "3", "9"]);
-    assert!(refusal(b"5\n").contains("the line has 1 field, and lines of an edge list have 2"));
-    let (edges, labels, _) = listed(b"5\nx\n", Reading::Lenient);
-    assert_eq!((edges, labels), (vec![], vec!["5".into(), "x".into()]));
-}
-
-#[test]
-fn repeated_pairs_and_further_columns_are_noted() {
-    let text = b"1 2 0.5\n2 1 .5\n2 3 1e3\n3 4\xc3\xa9 -7 # 1\n";
-    let (edges, labels, notes) = listed(text, Reading::Strict);
-    assert_eq!(labels, ["1", "2", "3", "4\u{e9}"]);
-    assert_eq!(edges, [(0, 1), (1, 2), (2, 3)]);
-    let merged = "1 pair is given again, the same or reversed, and merged";
-    assert_eq!(notes, [merged]);
-    let read_as = strict(text).unwrap().read;
-    assert_eq!(
-        (&*read_as.ignored, read_as.merged),
-        (&["column 3 (weights?)".to_owned()][..], 1)
-    );
-    let poses = "a b 1 0 0 0 1 0 0 0 1 7 8 9\nb c,0,0,1,1,0,0,0,1,0,7,8,9 \n";
-    let read_as = strict(poses.as_bytes()).unwrap().read;
-    assert_eq!(read_as.ignored, ["columns 3 to 14 (relative poses)"]);
-    for text in ["a b 1 0 0 0 1 0 0 0 -1 7 8 9\n", "a b .1 .1 .1 .1 1 1 1\n"] {
-        assert!(
-            refusal(text.as_bytes()).contains("not an edge list: lines of "),
+fn bare_lists() {
+    for (text, nodes, edges) in [
+        ("1 2\n2 3\n1 3\n", 3, 3),
+        ("1,2\n2,3\n1,3\n", 3, 3),
+        ("1;2;0,5\n2;3;1\n1;3;7\n", 3, 3),
+        ("a.jpg\tb.jpg\nb.jpg\tc.jpg\n", 3, 2),
+        ("left wall.jpg, roof.jpg\nroof.jpg, b.jpg\n", 3, 2),
+        ("\"left wall\" roof\nroof b\n", 3, 2),
+        ("a b {}\nb c {}\n", 3, 2),
+        ("a b {'weight': 2}\nb c {'weight': 3}\n", 3, 2),
+        ("a b 1 0 0 0 1 2 3\nb c 0 0 0 1 1 2 3\n", 3, 2),
+        (
+            "0 1 1 0 0 0 1 0 0 0 1 7 8 9\n1 2 0 1 0 1 0 0 0 0 -1 7 8 9\n",
+            3,
+            2,
+        ),
+        ("0001 0002\n0002 0010\n0001 0010\n", 3, 3),
+        ("q/1.jpg d/5.jpg\nq/1.jpg d/6.jpg\nq/2.jpg d/5.jpg\n", 4, 3),
+        ("# viewcert pairs\n0 1\n2\n", 3, 1),
+        (
+            "# kapture format: 1.1\n# query_image, map_image, score\na, b, 0.5\n",
+            2,
+            1,
+        ),
+    ] {
+        let Parsed { graph, .. } = strict(text.as_bytes()).unwrap_or_else(|fault| {
+            panic!("{text}: {}", fault.in_file("in"));
+        });
+        assert_eq!(
+            (graph.nodes(), graph.edges().len()),
+            (nodes, edges),
             "{text}"
         );
     }
-    let found = read(&b"a b x\nb c\nc a \"]\" ]\nb a #\n"[..], Reading::Lenient).unwrap();
-    let bad = [
-        "1 2,", "1 2,,x", "1 2 , ,x", "1 2 x,", "1 2 \"\"", "1 2 x\"y", ",1 2",
-    ];
-    for line in bad {
-        assert!(
-            read(format!("{line}\n").as_bytes(), Reading::Lenient).is_err(),
-            "{line}"
-        );
-    }
-    for line in [
-        "1 2,x",
-        "1 2, x",
-        "1 2 ,x",
-        "1 2 x , y ,z",
-        "1 2 \t",
-        "1 2 ->,{",
-    ] {
-        let (edges, ..) = listed(format!("{line}\n").as_bytes(), Reading::Lenient);
-        assert_eq!(edges, [(0, 1)], "{line}");
-    }
-    assert_eq!(found.notes, [merged]);
-    assert_eq!(found.read.ignored, ["fields behind the second on 2 lines"]);
 }
 
-/// The usual lines have a parser of their own from the seventeenth on, which must not differ.
+/// Each rule of a list without a head, broken.
 #[test]
-fn late_lines_are_read_as_early_ones() {
-    for (columns, further) in [(2, ""), (3, " 0.5"), (9, " 1 0 0 0 5 6 -7e1")] {
-        let mut text: String = (0..40)
-            .map(|v| format!("{v} {}{further}\n", v + 1))
-            .collect();
-        let (edges, ..) = listed(text.as_bytes(), Reading::Strict);
-        assert_eq!(edges.len(), 40, "{columns}");
-        for bad in [
-            "7",
-            "7 9 1 1",
-            "7 9 x",
-            "7 7",
-            "7,,9",
-            "7 9,",
-            "7 9 1 2 3 4 5 6 7 8",
-        ] {
-            let at = text.len();
-            text += bad;
-            for end in ["", "\n", "\n1 2\n"] {
-                let found = refusal((text.clone() + end).as_bytes());
-                assert!(
-                    found.starts_with("list.txt:41: "),
-                    "{columns} {bad}: {found}"
-                );
-            }
-            text.truncate(at);
-        }
-        for good in [" 7 9", "7\t9 ", "7 , 9\t", "7 9 \r", "7 9 # c", "\"7\" 9"] {
-            let line = match good.split_once(" #") {
-                Some((pair, _)) => format!("{pair}{further} # c"),
-                None => format!("{}{further}", good.trim_end_matches('\r')),
-            };
-            let (edges, ..) = listed((text.clone() + &line).as_bytes(), Reading::Strict);
-            assert_eq!(edges.len(), 41, "{columns} {good}");
-        }
+fn what_is_no_bare_list_is_refused() {
+    for (text, phrase) in [
+        ("1 2 3 4\n", "the line has 4 fields"),
+        ("1 2\n2 3\n9\n", "the line has 1 field, and line 1 has 2"),
+        ("1,2\n2 3\n", "the line has 1 field, and line 1 has 2"),
+        ("a\tb,c\nd\te\n", "`b,c` has blanks or commas"),
+        ("a b\nb c\nc 3\n", "`3` is a number"),
+        ("1 2\n2 b\n", "`b` is no integer"),
+        ("1.5 2\n2 3\n", "`1.5` is a number and no integer"),
+        ("07 8\n8 9\n", "begin with zeros"),
+        ("1 2 x\n2 3 4\n", "field 3, `x`, is no number"),
+        (
+            "a b 1 1 0 0 1 2 3\nb c 1 0 0 0 1 2 3\n",
+            "there is no unit quaternion",
+        ),
+        ("a b 1 0 0 0 1 0 0 0 -1 7 8 9\n", "there is no rotation"),
+        ("a b c,d\n", "`a b c` has blanks or commas"),
+        ("a,b\nb,\n", "field 2, where the name of a camera belongs"),
+        ("a -> b\n", "`->`, is no number"),
+        ("-> b\n", "`->` is neither"),
+        ("(1, 2)\n(2, 3)\n", "punctuated"),
+        ("a b {}\nb c\n", "`{...}` are expected"),
+        // Tables of something else.
+        (
+            "0 3\n1 4\n2 3\n3 2\n",
+            "the first column has each number once",
+        ),
+        ("3 0\n4 1\n3 2\n", "the second column has each number once"),
+        ("0 7\n0 8\n1 7\n1 9\n", "hardly a number in common"),
+        ("640 480\n", "one line of two numbers"),
+        ("640 480\n640 480\n", "the same two labels"),
+        ("0 1 2\n0 2 3\n0 3 4\n0 4 5\n", "triangles, perhaps"),
+        ("0 5 3\n5 1 2\n3 2 4\n", "symmetric matrix"),
+        ("8 11\n0 1\n0 2\n1 2\n", "may be a head or counts"),
+        (
+            "4 5\n1 2\n1 3\n2 3\n3 4\n1 4\n",
+            "the first line, 4 5, may count",
+        ),
+        (
+            "0 1\n0 2\n1 2\n2 3\n0 3\n4 5\n",
+            "the last line, 4 5, may count",
+        ),
+        ("0,1\n1,2\n1,3\n2,3\n", "as pandas writes them"),
+        ("0 1\n1 2\n1 3\n2 3\n", "as pandas writes them"),
+        ("a.jpg cat\nb.jpg dog\nc.jpg cat\n", "hardly any label"),
+        ("a.jpg a_mask.png\nb.jpg b_mask.png\n", "copies or masks"),
+        (
+            "old1.jpg new5.jpg\nold2.jpg new6.jpg\n",
+            "no label is in two lines",
+        ),
+        (
+            "foo bar\na.jpg b.jpg\na.jpg c.jpg\n",
+            "may be a head or counts",
+        ),
+        (
+            "rig, cam0, 1, 0, 0, 0, 0, 0, 0\nrig, cam1, 1, 0, 0, 0, 1, 0, 0\n",
+            "hardly any",
+        ),
+        (
+            "# node degree\n1 2\n2 3\n1 3\n",
+            "names their columns, `node degree`",
+        ),
+    ] {
+        let found = refusal(text.as_bytes());
+        assert!(found.contains(phrase), "{text}: {found}");
+        assert!(!found.contains("--format edges"), "{text}: {found}");
     }
+    // Where nothing says which of two it is, both are named.
+    let again = b"0,1\n0,1\n0,2\n1,2\n";
+    assert_eq!(strict(again).unwrap().graph.edges().len(), 3);
 }
 
 #[test]
 fn heads() {
-    for (text, head) in [
-        (&b"source,target\na,b\n"[..], "source,target"),
+    for (text, taken, ignored) in [
         (
-            b"# from a table\nImage_ID1\tIMAGE_ID2\n1\t2\n",
-            "Image_ID1,IMAGE_ID2",
+            "source,target\n1,2\n2,3\n",
+            "numbers in columns 1 and 2 (source, target)",
+            "",
         ),
-        (b"\"From\",\"To\"\n1,2\n", "From,To"),
-        (b"src dst weight\n1 2 5\n", "src,dst,weight"),
-        (b"i j w\n1 2 5\n", "i,j,w"),
-        (b"i j\n1 2\n", "i,j"),
-        (b"id1 id2 7\n1 2 5\n", "id1,id2,7"),
-        (b"left,right\na.jpg,b.jpg\n", "left,right"),
-        (b"here,there\na.jpg,b.jpg\n", "here,there"),
+        (
+            ",img1,img2,score\n0,a,b,7\n1,b,c,8\n",
+            "names in columns 2 and 3 (img1, img2)",
+            "columns 1, score",
+        ),
+        (
+            "Id;Source;Target\n1;a;b\n",
+            "names in columns 2 and 3 (Source, Target)",
+            "column Id",
+        ),
+        (
+            "image_id1\timage_id2\tx y\n1\t2\t\n",
+            "numbers in columns 1 and 2 (image_id1, image_id2)",
+            "column x y",
+        ),
+        (
+            "# FromNodeId\tToNodeId\n0\t1\n",
+            "numbers in columns 1 and 2 (FromNodeId, ToNodeId)",
+            "1 line of comments",
+        ),
     ] {
-        for reading in [Reading::Strict, Reading::Lenient] {
-            let (edges, labels, notes) = listed(text, reading);
-            assert_eq!((edges.len(), labels.len()), (1, 2));
-            assert_eq!(notes[0], format!("the first line is a head: {head}"));
-        }
-    }
-    // Named like a column, and a camera, or like the others.
-    for (text, nodes) in [
-        (&b"from to\nto x\n"[..], 3),
-        (b"node1 node2\nnode3 node4\n", 4),
-        (b"a b\nc d\n", 4),
-        (b"left right\ntop bottom\n", 4),
-        (b"hub a.jpg\nb.jpg c.jpg\n", 4),
-        (b"a.jpg b.jpg 5\nb.jpg c.jpg 7\n", 3),
-        (b"hub roof 5\n1 2 7\n", 4),
-    ] {
-        for reading in [Reading::Strict, Reading::Lenient] {
-            let (edges, labels, notes) = listed(text, reading);
-            // Two single pairs of names are odd.
-            let odd = usize::from(nodes == 4 && reading == Reading::Strict);
-            assert_eq!((edges.len(), labels.len(), notes.len()), (2, nodes, odd));
-        }
+        let parsed = strict(text.as_bytes()).unwrap_or_else(|fault| {
+            panic!("{text}: {}", fault.in_file("in"));
+        });
+        assert_eq!(parsed.read.taken.as_deref(), Some(taken), "{text}");
+        assert_eq!(parsed.read.ignored.join("; "), ignored, "{text}");
     }
     for (text, phrase) in [
         (
-            &b"1 2 nan\n2 3 0.5\n"[..],
-            "list.txt:1: not an edge list: field 3, `nan`, is no number",
+            "camera,point\n0,3\n0,4\n1,3\n",
+            "the head `camera,point` names no two columns",
         ),
         (
-            b"a b inf\na c 0.5\n",
-            "list.txt:1: the line could be a head, but its names occur",
+            "node,degree\n0,3\n1,4\n",
+            "the head `node,degree` names no two",
         ),
+        ("a,b,c,d\n1,2,3,4\n", "the head `a,b,c,d` names no two"),
         (
-            b"source target\n",
-            "list.txt: the first line is a head, and there are no pairs",
+            "source,target,img1,img2\n1,2,3,4\n",
+            "names the columns of pairs twice",
         ),
+        ("image1,image2\n", "there are no pairs"),
+        ("\"from\" \"to\"\n\"1\" \"a\" \"b\"\n", "row.names = FALSE"),
         (
-            b"image,width,height\n1,640,480\n",
-            "list.txt:1: the head calls a column `width`",
+            "source,target\na.png,b.jpg\nc.png,d.jpg\n",
+            "copies, perhaps",
+        ),
+        ("source,target\n1,\n", "is empty"),
+        (
+            "cam1 cam2\ncam5 cam7\ncam5 cam8\n",
+            "may be a head, and it looks like the labels",
         ),
     ] {
-        assert!(refusal(text).starts_with(phrase), "{}", refusal(text));
+        let found = refusal(text.as_bytes());
+        assert!(found.contains(phrase), "{text}: {found}");
     }
-    let (edges, ..) = listed(b"source target\n", Reading::Lenient);
-    assert_eq!(edges.len(), 1);
-    for alone in ["a.jpg b.jpg", "a.jpg,b.jpg,74", "node_0 node_1", "a b"] {
-        assert!(
-            strict(alone.as_bytes()).is_ok(),
-            "{}",
-            refusal(alone.as_bytes())
-        );
-    }
+    // Names that are labels below are those of a pair.
+    let (edges, ..) = listed(b"cam1 cam2\ncam2 cam3\ncam1 cam3\n", Reading::Strict);
+    assert_eq!(edges.len(), 3);
 }
 
-/// A table is cut as its first lines show, or as the user says.
+/// Other columns than those of a head are asked for, and are suggested if they alone hold images.
 #[test]
-fn tables() {
-    let table = |text: &str, columns: &str, least: &str, skip_loops| {
+fn columns() {
+    let with = |text: &str, columns: Option<&str>, least: Option<&str>| {
         let options = ListOptions {
-            columns: (!columns.is_empty()).then(|| columns.parse().unwrap()),
-            min_weight: (!least.is_empty()).then(|| least.parse().unwrap()),
-            skip_loops,
+            columns: columns.map(|columns| columns.parse().unwrap()),
+            min_weight: least.map(|least| least.parse().unwrap()),
+            skip_loops: false,
         };
-        let layout = layout::layout(text.as_bytes(), true, &options)
-            .map_err(|problem| Place::Input.fault(problem));
-        let read =
-            layout.and_then(|layout| read_with(text.as_bytes(), Reading::Strict, layout, &options));
-        read.map(|found| {
-            let label = |v| found.labels.label(v).into_owned();
-            let pairs = found
-                .graph
-                .edges()
-                .iter()
-                .map(|&(a, b)| label(a) + "-" + &label(b));
-            (pairs.collect::<Vec<_>>().join(" "), found.read.to_string())
-        })
-        .map_err(|fault| fault.in_file("list").to_string())
+        let text = text.as_bytes();
+        read_with(text, (text, true), Reading::Strict, &options)
+            .map(|parsed| (parsed.graph.nodes(), parsed.graph.edges().len()))
+            .map_err(|fault| fault.in_file("in").to_string())
     };
-    for (text, columns, least, pairs, read) in [
-        (
-            "id,source,target\n7,a,b\n8,b,c\n",
-            "",
-            "",
-            "a-b b-c",
-            "columns 2 and 3 (source, target)",
-        ),
-        (
-            "0,a.jpg,b.jpg\n1,b.jpg,c.jpg\n",
-            "",
-            "",
-            "a.jpg-b.jpg b.jpg-c.jpg",
-            "columns 2 and 3",
-        ),
-        (
-            "source;target\na;b\nb;c d\n",
-            "",
-            "",
-            "a-b b-c d",
-            "columns 1 and 2 (source, target)",
-        ),
-        (
-            "a;b;0,5\nb;c;1,5\n",
-            "",
-            "1.0",
-            "b-c",
-            "1 line with a weight below 1.0",
-        ),
-        (
-            "Source,Target,Label,Weight\na,b,,2\nb,c,,3\n",
-            "",
-            "2.5",
-            "b-c",
-            "column Label",
-        ),
-        (
-            "a b 2\nb c 3\nc a 1e1\n",
-            "",
-            "3",
-            "a-c b-c",
-            "1 line with a weight below 3",
-        ),
-        (
-            "p,q,r,s\na,1,b,9\nb,2,c,8\n",
-            "p,r",
-            "",
-            "a-b b-c",
-            "columns 1 and 3 (p, r)",
-        ),
-        (
-            "p,q,r,s\na,1,b,9\nb,2,c,8\n",
-            "p,r,s",
-            "9",
-            "a-b",
-            "1 line with a weight below 9",
-        ),
-        ("a x b 9\nb x c 8\n", "1,3", "", "a-b b-c", "columns 2, 4"),
-        (
-            "# query, map, score\na.jpg, b.jpg, 1\nc.jpg, a.jpg, 2\n",
-            "query,map",
-            "",
-            "a.jpg-b.jpg a.jpg-c.jpg",
-            "column 3",
-        ),
-        (
-            "Image 1,Image 2\na.jpg,b.jpg\n",
-            "",
-            "",
-            "a.jpg-b.jpg",
-            "head: Image 1,Image 2",
-        ),
-        (
-            "left wall.jpg,roof.jpg\nroof.jpg,yard.jpg\n",
-            "",
-            "",
-            "left wall.jpg-roof.jpg roof.jpg-yard.jpg",
-            "names",
-        ),
-    ] {
-        let (found, as_read) = table(text, columns, least, false).unwrap();
-        assert_eq!(found, pairs, "{text}");
-        assert!(as_read.contains(read), "{as_read}");
+    let table = "id,left,n,right\n7,a.jpg,30,b.jpg\n8,b.jpg,5,c.jpg\n9,a.jpg,40,c.jpg\n";
+    let found = with(table, None, None).unwrap_err();
+    assert!(found.contains("say --columns left,right"), "{found}");
+    for columns in ["left,right", "2,4"] {
+        assert_eq!(with(table, Some(columns), None), Ok((3, 3)), "{columns}");
     }
-    for (text, columns, least, phrase) in [
-        ("a b\nb c\n", "", "1", "there is no column of weights"),
-        ("a b 2\nb c x\n", "1,2,3", "1", "no number"),
-        (
-            "a b 1\nb c x\n",
-            "",
-            "1",
-            "list:2: --min-weight: field 3, `x`, is no number",
-        ),
-        (
-            "p,q\na,b\n",
-            "p,r",
-            "",
-            "there is no column `r`; there are p, q",
-        ),
-        (
-            "a b\nb c\n",
-            "1,4",
-            "",
-            "there is no column `4`; there are 2 columns",
-        ),
-        (
-            "source,target,w\na,b,1\na,,1\n",
-            "1,2",
-            "",
-            "list:3: field 2, where the name",
-        ),
-        ("source;target;w\na;b;1\na;b\n", "", "", "the line has"),
-    ] {
-        let refusal = table(text, columns, least, false).unwrap_err();
-        assert!(refusal.contains(phrase), "{text}: {refusal}");
-    }
-    for text in [
-        "a a\na b\nb b\n",
-        "1 1\n1 2\n2 2\n",
-        "source,target\na,a\na,b\n",
-    ] {
-        assert!(
-            table(text, "", "", false)
-                .unwrap_err()
-                .contains("is paired with itself")
-        );
-        let (_, read) = table(text, "", "", true).unwrap();
-        assert!(read.contains(" a camera with itself"), "{read}");
-    }
+    assert_eq!(with(table, Some("left,right,n"), Some("30")), Ok((3, 2)));
     assert!(
-        table("5 5\n", "", "", true)
+        with(table, Some("left,nothing"), None)
             .unwrap_err()
-            .contains("the graph is empty")
+            .contains("there is no column")
     );
-    for bad in ["", "a", "a,a", "1,", "0,1", "a,b,c,d"] {
-        assert!(bad.parse::<layout::Columns>().is_err(), "{bad}");
+    assert!(
+        with(table, Some("2,4"), Some("30"))
+            .unwrap_err()
+            .contains("no column of weights")
+    );
+    let list = "a b 5\nb c 7.5\na c 1e1\n";
+    for (least, edges) in [("5", 3), ("5.0000000000000000001", 2), ("10", 1)] {
+        assert_eq!(with(list, None, Some(least)).unwrap().1, edges, "{least}");
     }
+    let words = "foo,bar,kind\na,b,x\nb,c,y\n";
+    let apart = with(words, Some("1,2"), None).unwrap_err();
+    assert!(apart.contains("may be a head"), "{apart}");
+    assert_eq!(with(words, Some("foo,bar"), None), Ok((3, 2)));
 }
 
 #[test]
-fn what_could_be_something_else() {
-    for (text, phrase) in [
-        (&b"3 2\n1 2\n2 3\n"[..], "counts nodes and lines"),
-        (b"1 0\n", "counts nodes and lines"),
-        (b"2 2\n1 2\n2 1\n", "counts nodes and lines"),
-        (b"9 1\n18446744073709551615 2\n", "counts nodes and lines"),
-        (b"0 1\n1 0\n", "an adjacency matrix"),
-        (b"0 1 2\n1 2 3\n", "a list of stars"),
-        (b"1 2 5\n2 1 3\n3 2 4\n4 3 5\n5 4 1\n", "an adjacency list"),
-        (b"1 2 5\n2 1 3\n3 2 4\n4 3 5\n5 4 2\n", "every third field"),
-        (b"1 a\n2 b\n3 c\n#\n1 2\n2 3\n", "the Trivial Graph Format"),
-        (b"0.5 1.5\n2 3e1\n", "these could be coordinates"),
-    ] {
-        assert!(refusal(text).contains(phrase), "{}", refusal(text));
-        assert!(read(text, Reading::Lenient).is_ok() || text.starts_with(b"2 2"));
-    }
-    for text in [&b"2 2\n1 2\n"[..], b"2 2 1\n1 2 1\n", b"a a\n"] {
-        assert!(
-            refusal(text).starts_with("list.txt:1: camera"),
-            "{}",
-            refusal(text)
-        );
-    }
-    // Close to it, and nothing but edge lists.
-    for text in [
-        &b"1 2\n1 2\n2 3\n"[..],
-        b"3 4\n1 2\n2 3\n",
-        b"\"3\" 2\n1 2\n2 3\n",
-        b"18446744073709551615 18446744073709551614\n0 1\n",
-        b"0 1\n1 0\n0 1\n",
-        b"0 1 2\n1 2 9\n",
-        b"0 1 2\n2 1 3\n",
-        b"1 2 5\n2 1 3\n3 2 4\n4 3 5\n5 4 7\n",
-        b"a b\n#\nb c\n",
-        b"07 08\n08 09\n",
-        b"\"1.5\" 2.5\n",
-        b"a b\n1 a\n",
-    ] {
-        assert!(strict(text).is_ok(), "{}", refusal(text));
-    }
+fn whoever_knows_better_takes_the_first_two_fields() {
+    let (edges, labels, _) = listed(b"1 2 x\n2 b -> ]\n  9\n", Reading::Lenient);
+    assert_eq!(edges, [(0, 1), (1, 3)]);
+    assert_eq!(labels, ["1", "2", "9", "b"]);
+    let (_, _, notes) = listed(b"8 11\n0 1\n0 2\n1 2\n", Reading::Lenient);
+    assert!(
+        notes[0].starts_with("the first line, 8 11, may be"),
+        "{notes:?}"
+    );
+    let found = refused(b"a b\nb c d\n", Reading::Columns(2));
+    assert!(
+        found.starts_with("list.txt:2: the line has 3 fields, and lines of this format have 2")
+    );
 }
 
 #[test]
-fn fields_that_are_no_labels() {
-    for (text, phrase) in [
-        (&b"1 -> 2\n"[..], "`->` is neither"),
-        (b"// a comment\n1 2\n", "`//` is neither"),
-        (b"//a b\n1 2\n", "`//a` is neither"),
-        (b"(1, 2)\n(2, 3)\n", "`(1` is punctuated"),
-        (b"1 2;\n2 3;\n", "`2;` is punctuated"),
-        (b"a: b\n", "`a:` is punctuated"),
-        (b"0 1 {}\n", "`{}` is neither"),
-        (b"a b c\nb c d\n", "field 3, `d`, is no number"),
-        (b",a b\n", "an empty field"),
-        (b"a \"\"\n", "a quote (\") encloses nothing"),
-    ] {
-        assert!(refusal(text).contains(phrase), "{}", refusal(text));
+fn repeated_pairs_are_noted() {
+    let parsed = strict(b"1 2 0.5\n2 1 .5\n2 3 1e3\n1 3 -7 # 1\n").unwrap();
+    assert_eq!(parsed.graph.edges().len(), 3);
+    assert_eq!(
+        parsed.notes,
+        ["1 pair is given again, the same or reversed, and merged"]
+    );
+    assert_eq!(
+        (&*parsed.read.ignored, parsed.read.merged),
+        (&["column 3 (weights?)".to_owned()][..], 1)
+    );
+}
+
+/// The usual lines have a parser of their own after the first ones, which must not differ.
+#[test]
+fn late_lines_are_read_as_early_ones() {
+    for (columns, further) in [(2, ""), (3, " 0.5"), (9, " 1 0 0 0 5 6 -7e1")] {
+        let mut text: String = (0..100)
+            .map(|v| format!("{v} {}{further}\n", v + 1))
+            .collect();
+        let (edges, ..) = listed(text.as_bytes(), Reading::Strict);
+        assert_eq!(edges.len(), 100, "{columns}");
+        for bad in ["7", "7 9 1 1", "7 9 x", "7 7", "7 9 1 2 3 4 5 6 7 8", "7 b"] {
+            let at = text.len();
+            text += bad;
+            for end in ["", "\n", "\n1 2\n"] {
+                let whole = text.clone() + end;
+                let found = refusal(whole.as_bytes());
+                assert!(found.starts_with("list.txt:101: "), "{bad}: {found}");
+            }
+            text.truncate(at);
+        }
     }
-    let (_, labels, _) = listed(b"\"->\" \"a, b\"\nimg(1).jpg \"a:\"\n", Reading::Strict);
-    assert_eq!(labels, ["->", "a, b", "a:", "img(1).jpg"]);
 }
 
 /// A hash sign within a token is a part of it.
 #[test]
 fn names_are_sorted_bytewise() {
-    let (edges, labels, _) = listed(b"img#10 img#2\nimg#2 Z\n7 Z", Reading::Strict);
+    let (edges, labels, _) = listed(b"img#10 img#2\nimg#2 Z\n7 Z", Reading::Lenient);
     assert_eq!(labels, ["7", "Z", "img#10", "img#2"]);
     assert_eq!(edges, [(0, 1), (1, 3), (2, 3)]);
 }
 
 #[test]
 fn integers_are_sorted_by_value_however_large() {
-    let labels = |text: &[u8]| strict(text).unwrap().labels;
+    let labels = |text: &[u8]| read(text, Reading::Lenient).unwrap().labels;
     assert_eq!(labels(b"10 9\n9 11"), Labels::Numbers { first: 9 });
     assert_eq!(labels(b"100 9\n9 11"), Labels::Integers(vec![9, 11, 100]));
     // Too far apart for a bitmap of values.
@@ -455,7 +332,11 @@ fn integers_are_sorted_by_value_however_large() {
     let beyond = b"9 10\n18446744073709551615 10\n4294967296 9";
     let values = vec![9, 10, 1 << 32, u64::MAX];
     assert_eq!(labels(beyond), Labels::Integers(values));
-    let edges = strict(&beyond[..]).unwrap().graph.edges().to_vec();
+    let edges = read(&beyond[..], Reading::Lenient)
+        .unwrap()
+        .graph
+        .edges()
+        .to_vec();
     assert_eq!(edges, [(0, 1), (0, 2), (1, 3)]);
     let names: [&[u8]; 4] = [
         b"10 9\n9 011",
@@ -470,11 +351,15 @@ fn integers_are_sorted_by_value_however_large() {
 
 #[test]
 fn refusals_name_the_line() {
+    let found = refusal(b"1 2\n\n5 5\n");
     assert!(
-        refusal(b"1 2\n\n5 5\n")
-            .starts_with("list.txt:3: camera 5 is paired with itself; remove the pair")
+        found.starts_with("list.txt:3: camera 5 is paired with itself: a table, perhaps"),
+        "{found}"
     );
-    assert!(refusal(b"1 2\na b\nb b\n").starts_with("list.txt:3: camera b is paired"));
+    let head = refusal(b"source target\n1 2\n5 5\n");
+    assert!(head.starts_with("list.txt:3: camera 5 is paired with itself; remove the pair"));
+    let images = refusal(b"a.jpg b.jpg\nb.jpg b.jpg\n");
+    assert!(images.contains("--skip-loops"), "{images}");
     for (text, phrase) in [
         (&b"1 2\n2 \xff\n"[..], "this is no UTF-8 text; save it"),
         (b"1 2\n1 2\xc3\n", "this is no UTF-8 text; save it"),
@@ -520,7 +405,9 @@ fn an_input_that_fails_is_refused() {
             Err(std::io::Error::other("lost"))
         }
     }
-    let error = read(b"1 2\n".chain(Fails), Reading::Strict).unwrap_err();
+    let sample = (&b"1 2\n"[..], false);
+    let options = ListOptions::default();
+    let error = read_with(b"1 2\n".chain(Fails), sample, Reading::Strict, &options).unwrap_err();
     assert_eq!(
         error.in_file("-").to_string(),
         "-: cannot be read: lost; check its path and permissions"
@@ -566,7 +453,7 @@ proptest! {
             .map(|(a, b, more)| format!("{a} {b}{}\n", if *more { "\t1.5" } else { "" }))
             .collect();
         let backward: String = lines.iter().rev().map(|(a, b, _)| format!("{b} {a}\r\n")).collect();
-        let Parsed { graph, labels, read: ReadAs { merged, .. }, .. } = read(Slowly(forward.as_bytes(), chunk), Reading::Lenient).unwrap();
+        let Parsed { graph, labels, read: ReadAs { merged, .. }, .. } = read_with(Slowly(forward.as_bytes(), chunk), (forward.as_bytes(), true), Reading::Lenient, &ListOptions::default()).unwrap();
         let other = read(backward.as_bytes(), Reading::Lenient).unwrap();
         // A head is the first line.
         prop_assume!(graph.edges().len() + merged == lines.len());

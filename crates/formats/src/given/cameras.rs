@@ -9,13 +9,12 @@ use std::fs::File;
 use std::io::{self, Read as _};
 use std::path::Path;
 
-use super::arrays;
 use super::places::{Given, GivenCameras, Read, all, matrix};
 use super::table::Table;
 use crate::cameras::{Cameras, for_each_line};
 use crate::edge_list::fields::{Field, split};
 use crate::error::{Fault, Place, Problem, ReadError};
-use crate::{Model, NamedGraph};
+use crate::{Model, NamedGraph, matlab};
 use viewcert::geometry::camera::Camera;
 use viewcert::geometry::model::Model as Question;
 use viewcert::linalg::integer::Integer;
@@ -32,8 +31,7 @@ const CENTRE: &str = "centre";
 /// The first words of lines with cameras.
 pub(super) const WORDS: [&str; 3] = [CAMERA, POSE, CENTRE];
 
-/// Reads the cameras of a graph from a file, if it is one of cameras: a COLMAP model (a folder), an `.npy` or `.npz` file with an
-/// array (n, 3, 4) of cameras or (n, 3) of centres, a MATLAB file with one of 3 x 4 x n or n x 3, a text whose first word is `camera`, `pose` or
+/// Reads the cameras of a graph from a file, if it is one of cameras: a COLMAP model (a folder), a text whose first word is `camera`, `pose` or
 /// `centre`, or a table whose head names such columns. Nothing is read from standard input and pipes, which can be read once only:
 /// their bytes are for [`cameras_in`]. O(bytes).
 ///
@@ -57,8 +55,8 @@ pub fn read_cameras(
     let Ok(count) = File::open(path).and_then(|mut file| file.read(&mut start)) else {
         return Ok(None);
     };
-    if arrays::reader(&start[..count]).is_none() && !is_text_of_cameras(path, &start[..count]) {
-        return Ok(None);
+    if !is_text_of_cameras(path, &start[..count]) {
+        return arrays(&start[..count]).map_or(Ok(None), |fault| Err(fault.in_file(&name)));
     }
     let bytes = std::fs::read(path).map_err(|error| Place::Input.fault(error.into()));
     let bytes = bytes.map_err(|fault: Fault| fault.in_file(&name))?;
@@ -76,12 +74,27 @@ pub fn cameras_in(
     input: &NamedGraph,
     model: Question,
 ) -> Result<Option<GivenCameras>, ReadError> {
-    let found = match arrays::reader(bytes) {
-        Some(read) => read(bytes, input),
-        None if is_first_line_of_cameras(bytes) == Some(true) => of_text(bytes, input),
-        None => return Ok(None),
+    match is_first_line_of_cameras(bytes) {
+        Some(true) => finished(of_text(bytes, input), name, input, model).map(Some),
+        _ => arrays(bytes).map_or(Ok(None), |fault| Err(fault.in_file(name))),
+    }
+}
+
+/// Says of arrays, which are no text, how Python takes them.
+fn arrays(bytes: &[u8]) -> Option<Fault> {
+    let numpy: [&[u8]; 2] = [b"\x93NUMPY", b"PK\x03\x04"];
+    let (what, advice) = match () {
+        () if numpy.iter().any(|magic| bytes.starts_with(magic)) => (
+            "a file of arrays of NumPy",
+            "in Python: viewcert.at_cameras(viewcert.read('GRAPH'), numpy.load('FILE')), an array (n, 3, 4) or (n, 3)",
+        ),
+        () if matlab::is_matlab(bytes) => (
+            "a MATLAB file",
+            "in Python: viewcert.at_cameras(viewcert.read('GRAPH'), numpy.moveaxis(scipy.io.loadmat('FILE')['P'], 2, 0))",
+        ),
+        () => return None,
     };
-    finished(found, name, input, model).map(Some)
+    Some(Place::Input.fault(Problem::Foreign { what, advice }))
 }
 
 fn finished(

@@ -5,7 +5,6 @@
 //! or says nothing. Each line begins with the word that says what it is: `part`, `displacement` or
 //! `position` (docs/input.md); fields, quotes and comments are those of edge lists.
 
-mod arrays;
 pub(crate) mod cameras;
 mod displacements;
 mod parts;

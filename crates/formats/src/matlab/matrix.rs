@@ -109,12 +109,6 @@ impl Header {
         }
     }
 
-    /// All dimensions of a full array of real numbers.
-    pub(super) fn real_shape(&self) -> Option<&[u32]> {
-        let is_real = self.is_numeric() && self.flags & COMPLEX == 0 && !self.is_sparse();
-        is_real.then_some(&self.dimensions)
-    }
-
     pub(super) fn is_sparse(&self) -> bool {
         self.class == SPARSE
     }
@@ -144,28 +138,6 @@ impl Header {
     pub(super) fn real_square(&self) -> Result<u32, Problem> {
         self.real_matrix()?;
         self.square()
-    }
-}
-
-/// The numbers of a full real array of any number of dimensions, the first index changing fastest.
-pub(super) fn numbers(header: &Header, source: &mut Source) -> Result<Vec<f64>, Problem> {
-    let tag = source.tag()?;
-    let expected: u64 = header.dimensions.iter().map(|&d| u64::from(d)).product();
-    let mut all = Vec::new();
-    each_number(source, &tag, |value| {
-        // 2^53 + 1 is 2^53 by now.
-        if value.abs() >= 9_007_199_254_740_992.0 && matches!(tag.kind, 12 | 13) {
-            return Err(malformed("an integer of 2^53 or beyond"));
-        }
-        if all.len() as u64 == expected {
-            return Err(malformed("an array has more values than entries"));
-        }
-        all.push(value);
-        Ok(())
-    })?;
-    match all.len() as u64 == expected {
-        true => Ok(all),
-        false => Err(malformed("an array has fewer values than entries")),
     }
 }
 

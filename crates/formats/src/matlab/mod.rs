@@ -1,6 +1,4 @@
-//! MATLAB files (`save -v6`, `save -v7`, `save -v7.3`): an adjacency matrix as a graph.
-//!
-//! Version 7.3 is HDF5, in `hdf5`. The rest is of version 5.
+//! MATLAB files of version 5 (`save -v6`, `save -v7`): an adjacency matrix as a graph.
 //!
 //! Format by The MathWorks, "MAT-File Format": a header of 128 bytes, then data
 //! elements, each a type, a length and that many bytes; a variable is an
@@ -16,7 +14,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::edge_list::layout::ListOptions;
+use crate::edge_list::columns::ListOptions;
 use crate::error::{Fault, Place, Problem};
 use crate::matrix::{List, Matrix, Places, are_pairs};
 use crate::read_as::Parsed;
@@ -24,8 +22,6 @@ use crate::variables::{Candidate, choose, chosen_note};
 use viewcert::graph::Graph;
 
 mod element;
-#[cfg(feature = "hdf5")]
-mod hdf5;
 mod matrix;
 
 use element::{COMPRESSED, Elements, MATRIX, Source, malformed};
@@ -135,14 +131,10 @@ pub(super) fn read_noting(
     variable: Option<&str>,
     options: &ListOptions,
 ) -> Result<Parsed, Fault> {
-    let (name, graph) = if version(bytes) == Some(Version::Hdf5) {
-        read_hdf5(bytes, variable, options)?
-    } else {
-        let (order, variables) = variables(bytes)?;
-        let chosen = choose(&variables, variable)?;
-        (chosen.header.name.clone(), graph(chosen, order, options))
-    };
-    match graph {
+    let (order, variables) = variables(bytes)?;
+    let chosen = choose(&variables, variable)?;
+    let name = chosen.header.name.clone();
+    match graph(chosen, order, options) {
         Ok(mut parsed) => {
             if variable.is_none() && name != "A" {
                 parsed.notes.insert(0, chosen_note(&name));
@@ -152,25 +144,6 @@ pub(super) fn read_noting(
         }
         Err(problem) => Err(Place::Variable(name).fault(problem)),
     }
-}
-
-#[cfg(feature = "hdf5")]
-use hdf5::{read as read_hdf5, real_arrays as arrays_of_hdf5};
-
-/// Says that this build reads none.
-#[cfg(not(feature = "hdf5"))]
-fn read_hdf5(
-    _: &[u8],
-    _: Option<&str>,
-    _: &ListOptions,
-) -> Result<(String, Result<Parsed, Problem>), Fault> {
-    Err(Place::Input.fault(Problem::NoHdf5))
-}
-
-/// The same.
-#[cfg(not(feature = "hdf5"))]
-fn arrays_of_hdf5(_: &[u8], _: &dyn Fn(&[u32]) -> bool) -> Result<Vec<RealArray>, Problem> {
-    Err(Problem::NoHdf5)
 }
 
 /// The non-zero entries `(row, column, value)` of a numeric variable of any shape in a file of
@@ -189,46 +162,6 @@ pub fn entries(bytes: &[u8], variable: &str) -> Result<Vec<(u32, u32, f64)>, Fau
     })
     .map_err(|problem| Place::Variable(variable.header.name.clone()).fault(problem))?;
     Ok(entries)
-}
-
-/// A full array: its name, its shape, and numbers with the first index changing fastest.
-pub(crate) type RealArray = (String, Vec<u32>, Vec<f64>);
-
-/// The full arrays of real numbers whose shape is asked for, of a file of version 5, or of one of version
-/// 7.3 that MATLAB has named its arrays in. O(bytes).
-///
-/// # Errors
-/// A file of another version, truncated or corrupt; integers beyond 2^53; version 7.3 in a program that
-/// was built without it.
-pub(crate) fn real_arrays(
-    bytes: &[u8],
-    is_wanted: impl Fn(&[u32]) -> bool,
-) -> Result<Vec<RealArray>, Fault> {
-    if version(bytes) == Some(Version::Hdf5) {
-        return arrays_of_hdf5(bytes, &is_wanted).map_err(|problem| Place::Input.fault(problem));
-    }
-    let (order, variables) = variables(bytes)?;
-    let mut all = Vec::new();
-    for variable in variables {
-        let Some(shape) = variable
-            .header
-            .real_shape()
-            .filter(|shape| is_wanted(shape))
-        else {
-            continue;
-        };
-        let name = variable.header.name.clone();
-        let read = || {
-            let mut source = Source::of_element(variable.kind, variable.content, order)?;
-            let header = Header::read(&mut source)?;
-            let numbers = matrix::numbers(&header, &mut source)?;
-            source.finish()?;
-            Ok(numbers)
-        };
-        let numbers = read().map_err(|problem| Place::Variable(name.clone()).fault(problem))?;
-        all.push((name, shape.to_vec(), numbers));
-    }
-    Ok(all)
 }
 
 /// All variables of a file, in order; only their headers are read.

@@ -336,14 +336,7 @@ fn sparse_indices_that_contradict_each_other_are_refused() {
 fn other_versions_are_refused_with_what_to_do() {
     let mut hdf5 = b"MATLAB 7.3 MAT-file, Platform: GLNXA64".to_vec();
     hdf5.resize(600, 0);
-    #[cfg(not(feature = "hdf5"))]
-    assert!(refusal(&hdf5).contains("built without reading it; build it with it"));
-    #[cfg(feature = "hdf5")]
-    assert_eq!(
-        refusal(&hdf5),
-        "f.mat: it cannot be read as HDF5: invalid HDF5 magic bytes; \
-         copy the file again, or save the matrix in another format (MATLAB: -v7; Python: numpy.save)"
-    );
+    assert!(refusal(&hdf5).contains("viewcert.verify(h5py.File('FILE')['A'][:])"));
     for writer in [LITTLE, BIG] {
         // Code, rows, columns, real, length of the name with its zero.
         let code = if writer.0 == ByteOrder::Big { 1000 } else { 0 };

@@ -3,7 +3,7 @@
 //! Matches of features have the same form: rows of two indices, each index in one row at most. They
 //! are known by the graph that they would give, which falls into single pairs.
 
-use crate::edge_list::layout::ListOptions;
+use crate::edge_list::columns::ListOptions;
 use crate::error::Problem;
 use crate::pairs;
 use crate::read_as::{Parsed, ReadAs};

@@ -9,8 +9,8 @@
 //! real numbers for all pairs, which are distances or the like and say nothing about pairs.
 //! A matrix of two columns of integers is a list of pairs ([`list`]).
 
+use crate::edge_list::columns::ListOptions;
 use crate::edge_list::decimal::Decimal;
-use crate::edge_list::layout::ListOptions;
 use crate::error::Problem;
 use crate::read_as::{Parsed, ReadAs};
 use viewcert::graph::{Graph, GraphError, Labels};

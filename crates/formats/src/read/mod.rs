@@ -11,7 +11,7 @@ use std::sync::Arc;
 use crate::colmap::{self, Database, DatabaseError, DatabaseFacts, Pipeline};
 use crate::documents::{self, Document};
 use crate::edge_list::Reading;
-use crate::edge_list::layout::ListOptions;
+use crate::edge_list::columns::ListOptions;
 use crate::error::{Fault, Place, Problem, ReadError};
 use crate::inflate::{Compression, Inflater};
 use crate::lines::{Encoding, LINE_LIMIT, Lines};
@@ -20,7 +20,7 @@ use crate::read_as::{Parsed, ReadAs};
 use crate::recognise;
 use crate::recognise::Kind;
 use crate::tracks::{self, Frames, TrackFacts, TrackOptions};
-use crate::{edge_list, lookalikes, matlab, matrix_market, numpy};
+use crate::{edge_list, matlab, matrix_market};
 use viewcert::graph::{Graph, Labels};
 
 /// A graph as it was read.
@@ -77,12 +77,10 @@ pub enum Format {
     Graph6,
     /// One graph a line; see [`sparse6`](super::sparse6).
     Sparse6,
-    /// An adjacency matrix in a MATLAB file, of version 5 or 7.3 (HDF5); see [`matlab`].
+    /// An adjacency matrix in a MATLAB file of version 5; see [`matlab`].
     Matlab,
     /// An adjacency matrix in a MatrixMarket file; see [`matrix_market`].
     MatrixMarket,
-    /// An array of NumPy, or several (`.npz`), or a sparse matrix of SciPy; see [`numpy`].
-    Numpy,
     /// Two names of images a line and nothing else, as COLMAP imports and hloc writes them.
     MatchList,
     /// Relative poses of GLOMAP: a pair, a quaternion, a translation.
@@ -104,19 +102,13 @@ impl FromStr for Format {
             "sparse6" => Ok(Self::Sparse6),
             "matlab" => Ok(Self::Matlab),
             "matrix-market" => Ok(Self::MatrixMarket),
-            "numpy" => Ok(Self::Numpy),
             "match-list" | "hloc-pairs" => Ok(Self::MatchList),
             "glomap" => Ok(Self::Glomap),
             "1dsfm" => Ok(Self::OneDsfm),
             "openmvg-pairs" | "adjacency-list" => Ok(Self::Document(Document::Stars)),
             "raw-matches" => Ok(Self::Document(Document::RawMatches)),
-            "text-matrix" => Ok(Self::Document(Document::TextMatrix)),
             "g2o" => Ok(Self::Document(Document::G2o)),
-            "node-link" | "json" => Ok(Self::Document(Document::NodeLink)),
-            "gexf" => Ok(Self::Document(Document::Gexf)),
-            "gml" => Ok(Self::Document(Document::Gml)),
             "graphml" => Ok(Self::Document(Document::GraphMl)),
-            "dot" | "graphviz" => Ok(Self::Document(Document::Dot)),
             _ => Err(UnknownFormat),
         }
     }
@@ -125,8 +117,8 @@ impl FromStr for Format {
 /// A word that is not the name of a format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "the formats are edges, graph6, sparse6, matlab, matrix-market, numpy, match-list, glomap, \
-     1dsfm, openmvg-pairs, raw-matches, text-matrix, g2o, node-link, graphml, gml, gexf and dot"
+    "the formats are edges, graph6, sparse6, matlab, matrix-market, match-list, glomap, 1dsfm, \
+     openmvg-pairs, raw-matches, g2o and graphml"
 )]
 pub struct UnknownFormat;
 
@@ -139,19 +131,13 @@ impl fmt::Display for Format {
             Self::Sparse6 => "sparse6",
             Self::Matlab => "matlab",
             Self::MatrixMarket => "matrix-market",
-            Self::Numpy => "numpy",
             Self::MatchList => "match-list",
             Self::Glomap => "glomap",
             Self::OneDsfm => "1dsfm",
             Self::Document(Document::Stars) => "openmvg-pairs",
             Self::Document(Document::RawMatches) => "raw-matches",
-            Self::Document(Document::TextMatrix) => "text-matrix",
             Self::Document(Document::G2o) => "g2o",
-            Self::Document(Document::NodeLink) => "node-link",
-            Self::Document(Document::Gexf) => "gexf",
-            Self::Document(Document::Gml) => "gml",
             Self::Document(Document::GraphMl) => "graphml",
-            Self::Document(Document::Dot) => "dot",
         })
     }
 }
@@ -161,8 +147,7 @@ impl fmt::Display for Format {
 pub struct ReadOptions {
     /// The format; by default what the content is, if it can be only one.
     pub format: Option<Format>,
-    /// The variable of a MATLAB file or the array of an `.npz` file; by default `A`, the only square
-    /// matrix or the only list of pairs.
+    /// The variable of a MATLAB file; by default `A`, the only square matrix or the only list of pairs.
     pub variable: Option<String>,
     /// Which mapper's pairs to take from a database; by default those of incremental mapping.
     pub pipeline: Option<Pipeline>,
@@ -340,10 +325,6 @@ fn of_sampled(path: Option<&Path>, name: String, sampled: Sampled, options: Read
         })),
         Some(Format::Matlab) => Ok(Some(Kind::Matlab)),
         Some(Format::MatrixMarket) => Ok(Some(Kind::MatrixMarket)),
-        Some(Format::Numpy) if sampled.head.starts_with(numpy::ARCHIVE_MAGIC) => {
-            Ok(Some(Kind::NumpyArchive))
-        }
-        Some(Format::Numpy) => Ok(Some(Kind::Numpy)),
         Some(Format::Document(document)) => Ok(Some(Kind::Document(document))),
         None => recognise::kind(&sampled.head, sampled.whole).map(Some),
     };
@@ -367,25 +348,15 @@ fn of_sampled(path: Option<&Path>, name: String, sampled: Sampled, options: Read
         Ok(Some(Kind::MatrixMarket)) => {
             matrix_market::read_with(sampled.into_input(), &options.list)
         }
-        Ok(Some(Kind::Numpy)) => {
-            all(sampled.into_input()).and_then(|bytes| numpy::read_with(&bytes, &options.list))
-        }
-        Ok(Some(Kind::NumpyArchive)) => all(sampled.into_input()).and_then(|bytes| {
-            numpy::read_archive_with(&bytes, options.variable.as_deref(), &options.list)
-        }),
         // Compressed data within such are refused.
         Ok(None | Some(Kind::Text | Kind::Compressed(_))) => list(sampled, edges, &options.list),
         Ok(Some(Kind::Document(document))) => {
-            let asked = options.format.is_some();
-            documents::read_with(document, sampled.into_input(), asked, &options.list)
+            documents::read_with(document, sampled.into_input(), &options.list)
         }
         Err(problem) => Err(Place::Input.fault(problem)),
     };
     match one {
         Ok(mut parsed) => {
-            if let Labels::Names(names) = &parsed.labels {
-                parsed.notes.extend(lookalikes::note(names));
-            }
             parsed.notes.extend(unused);
             Box::new(std::iter::once(Ok(NamedGraph {
                 read: parsed.read,
@@ -400,37 +371,15 @@ fn of_sampled(path: Option<&Path>, name: String, sampled: Sampled, options: Read
 /// Reads a list of pairs. What its grammar refuses may have a name.
 fn list(sampled: Sampled, reading: Reading, options: &ListOptions) -> Result<Parsed, Fault> {
     let (head, whole) = (sampled.head.clone(), sampled.whole);
-    let layout = match reading {
-        Reading::Columns(_) => None,
-        _ => edge_list::layout::layout(&head, whole, options)
-            .map_err(|problem| Place::Input.fault(problem))?,
-    };
-    let mut read = edge_list::read_with(sampled.into_input(), reading, layout, options);
-    // What stands beside itself may be a table, and is no pair less then.
-    let has_self_pairs = match &read {
-        Ok(_) => options.skip_loops,
-        Err(fault) => matches!(fault.problem, Problem::SelfLoop(_)),
-    };
-    if has_self_pairs
-        && reading == Reading::Strict
-        && options.columns.is_none()
-        && let Some(problem) = recognise::with_self_pairs(&head, whole)
-    {
-        read = Err(Place::Input.fault(problem));
-    }
+    let read = edge_list::read_with(sampled.into_input(), (&head, whole), reading, options);
     read.map_err(|Fault { place, problem }| {
-        let likely = || recognise::likely(&head, whole);
-        match reading {
-            Reading::Strict if problem.is_grammar() => match likely() {
-                Some(problem) => Place::Input.fault(problem),
-                None if problem.is_of_columns()
-                    && edge_list::layout::first_two_are_pairs(&head, whole) =>
-                {
-                    place.fault(Problem::PairsFirst(Box::new(problem)))
-                }
-                None => place.fault(problem),
-            },
-            _ => place.fault(problem),
+        let named = match reading {
+            Reading::Strict if problem.is_grammar() => recognise::likely(&head, whole),
+            _ => None,
+        };
+        match named {
+            Some(problem) => Place::Input.fault(problem),
+            None => place.fault(problem),
         }
     })
 }
@@ -438,17 +387,12 @@ fn list(sampled: Sampled, reading: Reading, options: &ListOptions) -> Result<Par
 /// Options that say nothing about a file of this kind, in words.
 fn ignored(options: &ReadOptions, kind: &Result<Option<Kind>, Problem>) -> Vec<String> {
     let mut notes = Vec::new();
-    let variables = matches!(kind, Ok(Some(Kind::Matlab | Kind::NumpyArchive)));
-    if options.variable.is_some() && !variables {
-        let why = "this is no MATLAB file, and no archive of NumPy";
-        notes.push(format!("--variable is ignored: {why}"));
+    if options.variable.is_some() && !matches!(kind, Ok(Some(Kind::Matlab))) {
+        notes.push("--variable is ignored: this is no MATLAB file".to_owned());
     }
     // Weights are read, and loops may be there.
     let takes = match kind {
-        Ok(
-            None
-            | Some(Kind::Text | Kind::Matlab | Kind::MatrixMarket | Kind::Numpy | Kind::NumpyArchive),
-        ) => [true; 2],
+        Ok(None | Some(Kind::Text | Kind::Matlab | Kind::MatrixMarket)) => [true; 2],
         Ok(Some(Kind::Document(document))) => [document.has_weights(), true],
         _ => [false; 2],
     };

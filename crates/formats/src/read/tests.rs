@@ -61,10 +61,9 @@ fn the_format_is_found_in_the_content() {
     }
     // A label of that length is none.
     let label = format!("{} b\nb c\n", "a".repeat(2 * SAMPLE));
-    let items = all(label.as_bytes());
-    assert!(matches!(&items[..], [Ok(named)] if named.graph.nodes() == 3 && named.name == "in"));
+    assert!(one_error(label.as_bytes()).contains("the line is longer than"));
     let longer = line[..100].to_owned() + &line[100..].replacen('?', "??", 1);
-    assert!(one_error(longer.as_bytes()).contains("the line has 1 field"));
+    assert!(one_error(longer.as_bytes()).contains("the line is longer than"));
 }
 
 #[test]
@@ -130,7 +129,7 @@ fn what_is_not_read_is_refused_with_advice() {
     assert!(one_error(b"&AO\n&AO\n").starts_with("in: this is digraph6"));
     assert!(one_error(b"\x7fELF\0\0\0 and so on").starts_with("in: this is a program"));
     assert!(one_error(b"A_\na b\n").starts_with("in: this is graph6 with lines between"));
-    assert!(one_error(b"\x89HDF\r\n\x1a\n").contains("it cannot be read as HDF5"));
+    assert!(one_error(b"\x89HDF\r\n\x1a\n").contains("h5py.File"));
     assert!(one_error(b"").starts_with("in: the graph is empty"));
 }
 
@@ -148,9 +147,6 @@ fn a_format_that_is_asked_for_is_not_guessed() {
     assert!(matches!(&items[..], [Err(error)] if error.contains("not a MATLAB file")));
     let items = with(b"1 2\n", options(Format::MatrixMarket));
     assert!(matches!(&items[..], [Err(error)] if error.contains("MatrixMarket")));
-    let dot = Format::Document(Document::Dot);
-    let items = with(b"strict graph\n{a--b b--c}\n", options(dot));
-    assert!(matches!(&items[..], [Ok(named)] if named.graph.edges().len() == 2));
     let items = with(b"source target\ntarget x\n", options(Format::MatchList));
     assert!(matches!(&items[..], [Ok(named)] if named.graph.nodes() == 3));
     for (name, format) in [
@@ -160,14 +156,9 @@ fn a_format_that_is_asked_for_is_not_guessed() {
         ("sparse6", Format::Sparse6),
         ("matlab", Format::Matlab),
         ("matrix-market", Format::MatrixMarket),
-        ("numpy", Format::Numpy),
         ("match-list", Format::MatchList),
         ("1dsfm", Format::OneDsfm),
         ("openmvg-pairs", Format::Document(Document::Stars)),
-        ("json", Format::Document(Document::NodeLink)),
-        ("gexf", Format::Document(Document::Gexf)),
-        ("gml", Format::Document(Document::Gml)),
-        ("graphviz", Format::Document(Document::Dot)),
     ] {
         assert_eq!(name.parse(), Ok(format));
         assert_eq!(format.to_string().parse(), Ok(format));

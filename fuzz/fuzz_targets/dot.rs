@@ -1,9 +1,0 @@
-//! Any bytes as a graph in DOT.
-#![no_main]
-
-mod document;
-
-use libfuzzer_sys::fuzz_target;
-use viewcert_formats::documents::Document;
-
-fuzz_target!(|data: &[u8]| document::holds(Document::Dot, data));
