@@ -59,24 +59,9 @@ impl FromStr for Decimal {
 }
 
 impl Decimal {
-    /// The number 1.
-    pub(crate) fn one() -> Self {
-        Self {
-            negative: false,
-            digits: Box::from(*b"1"),
-            exponent: 1,
-            text: "1".into(),
-        }
-    }
-
     /// Whether it is 0.
     pub(crate) fn is_zero(&self) -> bool {
         self.digits.is_empty()
-    }
-
-    /// Whether it is 0, 1, 2, ...
-    pub(crate) fn is_natural(&self) -> bool {
-        !self.negative && self.exponent >= self.digits.len() as i64
     }
 
     fn signed(&self) -> i8 {
@@ -169,22 +154,6 @@ mod tests {
         }
         for bad in ["", "x", "1e", "nan", "1e9999999999999999999", "0x1"] {
             assert!(bad.parse::<Decimal>().is_err(), "{bad}");
-        }
-    }
-
-    #[test]
-    fn natural_numbers() {
-        for (text, natural) in [
-            ("0", true),
-            ("7", true),
-            ("5.000e+00", true),
-            ("1.2e2", true),
-            ("1.2", false),
-            ("-3", false),
-            ("1e-1", false),
-            ("1.25e1", false),
-        ] {
-            assert_eq!(decimal(text).is_natural(), natural, "{text}");
         }
     }
 }

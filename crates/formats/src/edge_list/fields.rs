@@ -47,15 +47,6 @@ impl Field {
     pub(crate) fn is_number(self, line: &str) -> bool {
         !self.quoted && is_number(self.raw(line).as_bytes())
     }
-
-    /// Its value if it is an integer (which is never quoted).
-    pub(crate) fn integer(self, line: &str) -> Option<u64> {
-        if self.quoted {
-            None
-        } else {
-            integer(self.raw(line))
-        }
-    }
 }
 
 /// Splits a line without control characters into its fields.
