@@ -94,7 +94,7 @@ fn what_is_no_bare_list_is_refused() {
         ("a b 1 0 0 0 1 0 0 0 -1 7 8 9\n", "there is no rotation"),
         ("a b c,d\n", "`a b c` has blanks or commas"),
         ("a,b\nb,\n", "field 2, where the name of a camera belongs"),
-        ("a -> b\n", "`->`, is no number"),
+        ("a -> b\n", "`->` is neither"),
         ("-> b\n", "`->` is neither"),
         ("(1, 2)\n(2, 3)\n", "punctuated"),
         ("a b {}\nb c\n", "`{...}` are expected"),
