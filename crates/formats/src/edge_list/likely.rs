@@ -5,7 +5,6 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::fields::Separator;
 use super::names::{are_alike, is_copy, is_image, shape};
 use super::refusal::Refusal;
 
@@ -27,9 +26,6 @@ pub(super) struct List<'a> {
     /// The third fields of the first lines, if they are integers.
     pub(super) thirds: &'a [u32],
     pub(super) width: usize,
-    pub(super) separator: Separator,
-    /// Whether there are comments, or attributes of networkx: pandas writes none.
-    pub(super) comments: bool,
 }
 
 impl List<'_> {
@@ -92,20 +88,15 @@ impl List<'_> {
         is_odd.then(|| Refusal::apart("last", &self.shown(last)))
     }
 
-    /// The numbers of columns as pandas writes them above tables without names.
+    /// The numbers of columns as pandas writes them above tables without names, where nothing but this line
+    /// has the 0.
     fn of_pandas(&self, pairs: &[(u32, u32)]) -> Option<Refusal> {
         let &(a, b) = pairs.first()?;
         let numbered = (self.integer(a), self.integer(b)) == (0, 1)
             && (self.width == 2 || self.width == 3 && self.thirds.first() == Some(&2));
         let others = &pairs[1..];
-        let is_again = others
-            .iter()
-            .any(|&(c, d)| (c, d) == (a, b) || (d, c) == (a, b));
         let is_alone = others.iter().all(|&(c, d)| c != a && d != a);
-        // Commas are what pandas writes unless it is told otherwise.
-        let by_comma = self.separator == Separator::Byte(b',') && !self.comments;
-        let is_doubtful = by_comma || is_alone && !is_chain(pairs);
-        (numbered && !others.is_empty() && !is_again && is_doubtful).then(|| {
+        (numbered && !others.is_empty() && is_alone && !is_chain(pairs)).then(|| {
             let what = "the first line, 0 and 1, may be a pair, or the numbers of the columns as pandas writes them";
             let remedy = "delete it if it is no pair; if it is one, write the line `source,target` above it";
             Refusal::new(what, remedy)

@@ -494,8 +494,6 @@ impl Collector {
             left_out: self.light + self.loops.len() as u64,
             thirds: &self.thirds,
             width: self.layout.width.unwrap_or(2),
-            separator: self.layout.separator,
-            comments: self.comments > 0 || self.layout.attributes.is_some(),
         };
         match self.layout.head {
             Head::None if matches!(self.reading, Reading::Columns(_)) => None,
