@@ -33,7 +33,7 @@ pub(crate) use graph::TrackGraph;
 pub(crate) use join::Joined;
 pub(crate) use kind::{TrackFile, kind};
 pub(crate) use model::{encoding_in, frames_in, has_no_points, is_model};
-pub(crate) use model_files::{CAMERA_MODELS, Encoding as ModelEncoding};
+pub(crate) use model_files::Encoding as ModelEncoding;
 
 use std::io::Read;
 use std::path::Path;

@@ -32,7 +32,7 @@ pub(super) struct Image {
 
 /// The models of cameras by their numbers in COLMAP 4.2: what they are called, and how many parameters
 /// they have.
-pub(crate) const CAMERA_MODELS: [(&str, u64); 18] = [
+pub(super) const CAMERA_MODELS: [(&str, u64); 18] = [
     ("SIMPLE_PINHOLE", 3),
     ("PINHOLE", 4),
     ("SIMPLE_RADIAL", 4),
