@@ -11,7 +11,8 @@ use viewcert::Graph;
 use viewcert::decide::{Options, Question, Verdict, decide};
 use viewcert::geometry::model::Model;
 use viewcert_advice::lists::{self, List};
-use viewcert_formats::{NamedGraph, ReadOptions, read_graphs};
+use viewcert_advice::{Tracks, foreseen};
+use viewcert_formats::{NamedGraph, ReadOptions, open_database, read_graphs};
 use viewcert_report::lists::ListReport;
 use viewcert_session::Session;
 use viewcert_session::outputs;
@@ -144,26 +145,49 @@ fn list(session: &Session, asked: &Asked<'_>, input: &mut NamedGraph, file: &Pat
         return Ok(List::new(name, images, Vec::new()));
     }
     session.doing(format!("deciding {name}"));
-    let (verdict, cameras) = if input.database.is_some() {
-        let labels = images.iter().map(|&v| input.labels.label(v).into_owned());
-        let options = ReadOptions {
-            only: Some(Arc::new(labels.collect())),
-            ..asked.of_tracks.clone()
-        };
-        let tracks = first(asked.graph, &options)?;
-        let cameras = tracks.cameras.unwrap_or(0);
-        (decided(session, &tracks.graph), cameras)
+    let found = if input.database.is_some() {
+        of_database(session, asked, input, name.clone(), images)
     } else {
         let graph = Graph::new(input.graph.nodes() as u32, own)?;
-        (decided(session, &graph), u32::MAX)
+        let components = decided(session, &graph).map(|verdict| {
+            let components = verdict.components.iter();
+            components.map(|component| component.nodes()).collect()
+        });
+        components.map(|components| List::new(name.clone(), images, components))
     };
     session.hide();
-    let verdict = verdict.with_context(|| name.clone())?;
-    let components = verdict.components.iter().map(|component| {
-        let nodes = component.nodes().into_iter();
-        nodes.filter(|&v| v < cameras).collect::<Vec<u32>>()
-    });
-    Ok(List::new(name, images, components.collect()))
+    found.with_context(|| name)
+}
+
+/// Decides the tracks of a list, and simulates what mappers do with them.
+fn of_database(
+    session: &Session,
+    asked: &Asked<'_>,
+    input: &NamedGraph,
+    name: String,
+    images: Vec<u32>,
+) -> Result<List> {
+    let label = |v: u32| input.labels.label(v).into_owned();
+    let options = ReadOptions {
+        only: Some(Arc::new(images.iter().map(|&v| label(v)).collect())),
+        ..asked.of_tracks.clone()
+    };
+    let database = open_database(asked.graph, &options);
+    let database = database.context("the database is there no more")??;
+    let (pairs, options) = (database.pairs(), options.tracks.unwrap_or_default());
+    let tracks = database.tracks(options)?;
+    database.rest()?;
+    let verdict = decided(session, &tracks.graph)?;
+    let tracks = Tracks {
+        input: &tracks,
+        verdict: &verdict,
+        options,
+    };
+    let list = List::new(name, images, tracks.parts(&pairs));
+    let (mappers, _) = foreseen(Some(&database), &pairs, Some(tracks), session.shown_watch())?;
+    database.finish()?;
+    let mappers = mappers.context("tracks of a database are simulated")?;
+    Ok(list.mapped(mappers, label))
 }
 
 fn decided(session: &Session, graph: &Graph) -> Result<Verdict> {

@@ -16,7 +16,7 @@ use viewcert::Known;
 use viewcert::decide::{Calibrated, Options, decide};
 use viewcert::geometry::model::Model;
 use viewcert_advice::export::shell;
-use viewcert_advice::{Advice, Request, Shapes, foreseen};
+use viewcert_advice::{Advice, Request, Shapes, Tracks, foreseen};
 use viewcert_formats::colmap::{Database, DatabaseError};
 use viewcert_formats::error::{Problem, ReadError};
 use viewcert_formats::{NamedGraph, ReadOptions, open_database, read_graphs, with_rigs};
@@ -187,7 +187,7 @@ fn source(
     let tracks = match &database {
         None => Err("this input has pairs alone".to_owned()),
         Some(_) if pairs.graph.edges().is_empty() => Err("no pair is used".to_owned()),
-        Some(database) => read_tracks(session, asked, path, database, true)?,
+        Some(database) => read_tracks(session, asked, path, database)?,
     };
     Ok(Source {
         pairs: Some(pairs),
@@ -196,17 +196,14 @@ fn source(
     })
 }
 
-/// The cameras and points of a database, with the rigs or as if every image had a centre of its own, or
-/// why there are none in one that has pairs.
+/// The cameras and points of a database, or why there are none in one that has pairs.
 fn read_tracks(
     session: &Session,
     asked: &Asked,
     path: &Path,
     database: &Database,
-    rigs: bool,
 ) -> Result<Result<NamedGraph, String>> {
-    let mut options = asked.of_tracks.tracks.unwrap_or_default();
-    options.rigs &= rigs;
+    let options = asked.of_tracks.tracks.unwrap_or_default();
     session.reading(path);
     let tracks = database.tracks(options);
     session.hide();
@@ -292,23 +289,19 @@ fn overview(
     session.hide();
     let advice = advice.with_context(|| input.name.clone())?;
     let of_pairs = source.pairs.as_ref().unwrap_or(input);
-    let of_tracks = tracks.as_ref().map(|(input, verdict)| (*input, verdict));
     let frames = input.frames.as_ref();
-    let each = match frames {
-        // Mappers place images, of which several may be one camera here.
-        Some(frames) if !frames.together.is_empty() => match &source.database {
-            Some(database) => read_tracks(session, wish, path, database, false)?.ok(),
-            None => None,
-        },
-        _ => None,
-    };
     let database = source.database.as_ref();
-    let (mut mappers, narrow) = foreseen(database, of_pairs, of_tracks, each.as_ref())?;
-    if let Some(mappers) = mappers.as_mut().filter(|_| by_frames) {
-        mappers.global.parts = vec![mappers.global.images.clone()];
-    }
-    if let Some(database) = source.database.take() {
-        database.finish()?;
+    let of_tracks = tracks.as_ref().map(|(input, verdict)| Tracks {
+        input,
+        verdict,
+        options: wish.of_tracks.tracks.unwrap_or_default(),
+    });
+    let forecast = foreseen(database, of_pairs, of_tracks, session.shown_watch());
+    session.hide();
+    let (mut mappers, narrow) = forecast?;
+    let models = mappers.iter_mut().filter(|_| by_frames);
+    for model in models.flat_map(|mappers| &mut mappers.global.models) {
+        model.parts = vec![model.images.clone()];
     }
     let no_joints = Advice::default();
     let any_scope = Scope::default();
@@ -345,9 +338,18 @@ fn overview(
         mappers,
         narrow,
         parts: OnceCell::new(),
+        without_base_line: Vec::new(),
         next: Vec::new(),
         time: Duration::ZERO,
     };
+    if let Some(database) = source.database.take() {
+        // Images of a frame that were taken at one place are one camera, and no pair.
+        if frames.is_none_or(|frames| frames.together.is_empty()) {
+            let frames = frames.map_or(&[][..], |frames| &frames.groups);
+            found.split_by_base_lines(|parts| database.by_base_lines(parts, frames))?;
+        }
+        database.finish()?;
+    }
     found.next = next(&wish.of_tracks, path, &found);
     found.time = start.elapsed();
     say(&found)

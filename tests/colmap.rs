@@ -1240,7 +1240,7 @@ fn advice_speaks_of_frames() {
     };
     let whole = overview(&stereo(Some([0.5, 0.0, 0.0])));
     assert_eq!(whole["determined"], true);
-    assert_eq!(whole["mappers"]["global"]["frames"], 2);
+    assert_eq!(whole["mappers"]["global"]["models"][0]["frames"], 2);
     assert_eq!(whole["suggestions"], json!([]));
     // One frame leads from the left images to the right ones.
     let one = stereo(Some([0.5, 0.0, 0.0]));
@@ -1404,7 +1404,7 @@ fn frames_share_base_lines_that_are_not_known() {
         "not-finite-solvable"
     );
     assert_eq!(
-        screen["mappers"]["global"]["parts"]
+        screen["mappers"]["global"]["models"][0]["parts"]
             .as_array()
             .unwrap()
             .len(),

@@ -29,6 +29,13 @@ fn sizes(line: &Value) -> Vec<usize> {
     models.iter().map(images).collect()
 }
 
+/// How many images the models of global mapping have.
+fn global_sizes(line: &Value) -> Vec<usize> {
+    let models = line["mappers"]["global"]["models"].as_array().unwrap();
+    let images = |model: &Value| model["images"].as_array().unwrap().len();
+    models.iter().map(images).collect()
+}
+
 /// pycolmap 4.2.1 with `min_model_size` 3: images of all models, and how many are in the global one.
 const MAPPED: [(&str, &[usize], usize); 3] = [
     ("photos_banana.db", &[8, 4, 4], 15),
@@ -42,9 +49,9 @@ fn photographs_are_mapped_as_foreseen() {
         let Some(path) = sample(name) else { return };
         let (line, _) = overview(path.to_str().unwrap());
         assert_eq!(sizes(&line), incremental, "{name}");
-        let images = line["mappers"]["global"]["images"].as_array().unwrap();
-        assert_eq!(images.len(), global, "{name}");
+        assert_eq!(global_sizes(&line), [global], "{name}");
         assert_eq!(line["mappers"]["simulated"], true);
+        assert_eq!(line["mappers"]["colmap"], "4.2");
     }
 }
 
@@ -58,9 +65,9 @@ fn first_lines_and_names() {
     let lines: Vec<&str> = run.out.lines().collect();
     assert_eq!(
         lines[2],
-        "  global      one model of 15 of 16 images, all determined if every pair is right"
+        "  global      one model of 15 of 16 images, all determined if every pair is right (COLMAP 4.2)"
     );
-    let likely = "  incremental likely 8 + 4 + 4 images (simulated, not proved), stops at ";
+    let likely = "  incremental likely 8 + 4 + 4 images (simulated for COLMAP 4.2, not";
     assert!(lines[3].starts_with(likely), "{}", lines[3]);
     let said = |words: &str| assert!(run.out.contains(words), "{words}: {}", run.out);
     said("  part 1      DSC_0423.JPG ... DSC_0438.JPG (15 images)\n");
@@ -208,4 +215,296 @@ fn explained_images_see_points() {
         degree.unwrap()
     );
     assert!(run.out.contains(&said), "{}", run.out);
+}
+
+/// A database as COLMAP writes them, made by hand: a feature of an image is a point that it sees.
+struct Made {
+    folder: tempfile::TempDir,
+    images: u32,
+    /// Which images see how many points.
+    seen: Vec<(Vec<u32>, u32)>,
+}
+
+impl Made {
+    fn new(images: u32, seen: &[(Vec<u32>, u32)]) -> Self {
+        Self {
+            folder: tempfile::tempdir().unwrap(),
+            images,
+            seen: seen.to_vec(),
+        }
+    }
+
+    /// Writes it; `pair` says of two images how many matches they keep and of which configuration, if they
+    /// are matched.
+    fn write(&self, pair: impl Fn(u32, u32) -> Option<(usize, i64)>) -> String {
+        let path = self.folder.path().join("database.db");
+        let _ = std::fs::remove_file(&path);
+        let database = rusqlite::Connection::open(&path).unwrap();
+        let tables = "
+            create table images (image_id integer primary key, name text not null unique);
+            create table keypoints (image_id integer primary key, rows integer, cols integer, data blob);
+            create table two_view_geometries (pair_id integer primary key, rows integer, cols integer,
+                data blob, config integer, F blob, E blob, H blob, qvec blob, tvec blob);";
+        database.execute_batch(tables).unwrap();
+        let points: u32 = self.seen.iter().map(|(_, count)| count).sum();
+        let insert = |into: &str, values: &[&dyn rusqlite::ToSql]| {
+            database
+                .execute(&format!("insert into {into}"), values)
+                .unwrap();
+        };
+        for image in 0..self.images {
+            let name = format!("{image:02}.jpg");
+            insert("images values (?, ?)", &[&(image + 1), &name]);
+            let places = vec![0u8; 8 * points as usize];
+            insert(
+                "keypoints values (?, ?, 2, ?)",
+                &[&(image + 1), &points, &places],
+            );
+        }
+        for (a, b) in (0..self.images).flat_map(|b| (0..b).map(move |a| (a, b))) {
+            let Some((most, config)) = pair(a, b) else {
+                continue;
+            };
+            let mut next = 0;
+            let mut bytes = Vec::new();
+            for (images, count) in &self.seen {
+                if images.contains(&a) && images.contains(&b) {
+                    bytes.extend((next..next + count).map(|k| [k.to_le_bytes(); 2].concat()));
+                }
+                next += count;
+            }
+            bytes.truncate(most);
+            let id = 2_147_483_647 * i64::from(a + 1) + i64::from(b + 1);
+            let rows = bytes.len() as i64;
+            insert(
+                "two_view_geometries (pair_id, rows, cols, data, config) values (?, ?, 2, ?, ?)",
+                &[&id, &rows, &bytes.concat(), &config],
+            );
+        }
+        path.to_str().unwrap().to_owned()
+    }
+}
+
+/// Images of groups of these sizes, one after another, that see the same 200 points.
+fn groups(sizes: &[u32]) -> (Made, Vec<usize>) {
+    let group = sizes.iter().enumerate();
+    let group: Vec<usize> = group
+        .flat_map(|(k, &size)| vec![k; size as usize])
+        .collect();
+    let images = group.len() as u32;
+    (Made::new(images, &[((0..images).collect(), 200)]), group)
+}
+
+const ALL: usize = usize::MAX;
+
+/// pycolmap 4.2.1 makes [6, 6, 6] of three groups whose images are matched across one by one with 25 or 29
+/// inliers, and [18] with 30, 31, 40 and 60: only direct matches carry an image across.
+#[test]
+fn pairs_below_thirty_inliers_carry_nobody_across() {
+    let (made, group) = groups(&[6, 6, 6]);
+    for (inliers, expected) in [
+        (15, &[6, 6, 6][..]),
+        (25, &[6, 6, 6]),
+        (29, &[6, 6, 6]),
+        (30, &[18]),
+        (31, &[18]),
+        (60, &[18]),
+    ] {
+        let path = made.write(|a, b| match group[b as usize] - group[a as usize] {
+            0 => Some((ALL, 3)),
+            1 if b - a == 6 && a % 6 < 3 => Some((inliers, 3)),
+            _ => None,
+        });
+        let (line, _) = overview(&path);
+        assert_eq!(sizes(&line), expected, "{inliers} inliers");
+        assert_eq!(global_sizes(&line), [18], "{inliers} inliers");
+    }
+}
+
+/// pycolmap 4.2.1 makes [6, 5, 3] of groups of 6, 5, 3 and 2 images, in both mappers.
+#[test]
+fn each_connected_part_of_three_images_becomes_a_global_model() {
+    let (made, group) = groups(&[6, 5, 3, 2]);
+    let path = made.write(|a, b| (group[a as usize] == group[b as usize]).then_some((ALL, 3)));
+    let (line, code) = overview(&path);
+    assert_eq!((code, global_sizes(&line)), (1, vec![6, 5, 3]));
+    assert_eq!(sizes(&line), [6, 5, 3]);
+    let words = words(&["overview", &path]);
+    let said = "global 3 models of 6 + 5 + 3 images, one for each connected part, all determined (COLMAP 4.2)";
+    assert!(words.contains(said), "{words}");
+}
+
+/// Within a connected part global mapping glues what the tracks leave apart, here at one image.
+#[test]
+fn within_a_connected_part_groups_are_glued() {
+    let images = |from: u32, to: u32| (from..to).collect::<Vec<u32>>();
+    let made = Made::new(
+        15,
+        &[
+            (images(0, 6), 100),
+            (images(5, 11), 100),
+            (images(11, 15), 100),
+        ],
+    );
+    let path = made.write(|a, b| {
+        let inside = |from: u32, to: u32| a >= from && b < to;
+        (inside(0, 6) || inside(5, 11) || inside(11, 15)).then_some((ALL, 3))
+    });
+    let (line, _) = overview(&path);
+    assert_eq!(global_sizes(&line), [11, 4]);
+    let words = words(&["overview", &path]);
+    let said = "in the one of 11 of 15 images, in which 2 parts (6, 6) are not determined against each other: \
+                they may be silently misplaced";
+    assert!(words.contains(said), "{words}");
+}
+
+/// What is printed, without line breaks.
+fn words(asked: &[&str]) -> String {
+    let run = verify(asked);
+    run.out.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// Two halves joined by one pair of a configuration, and what pycolmap 4.2.1 makes of them: incremental
+/// mapping takes watermarks and what has several motions, global mapping neither, and none of the two takes
+/// degenerate or undefined pairs.
+#[test]
+fn each_mapper_takes_its_own_pairs() {
+    let (made, group) = groups(&[9, 9]);
+    for (config, incremental, global, warned) in [
+        (3, &[18][..], &[18][..], false),
+        (7, &[18], &[9, 9], true),
+        (8, &[18], &[9, 9], true),
+        (1, &[9, 9], &[9, 9], true),
+        (0, &[9, 9], &[9, 9], false),
+    ] {
+        let path = made.write(|a, b| match group[a as usize] == group[b as usize] {
+            true => Some((ALL, 3)),
+            false => (b - a == 9 && a == 0).then_some((ALL, config)),
+        });
+        let (line, code) = overview(&path);
+        assert_eq!(sizes(&line), incremental, "{config}");
+        assert_eq!(global_sizes(&line), global, "{config}");
+        assert_eq!(code, i32::from(warned), "{config}");
+        let run = verify(&["overview", &path]);
+        let second = run.out.lines().nth(1).unwrap();
+        assert_eq!(
+            second.starts_with("  warning     part 1, 18 images: between groups of 9 + 9"),
+            warned
+        );
+        let note = "no base line that shows and so no fundamental matrix";
+        for options in [&["--json"][..], &["--json", "--tracks"]] {
+            let line = &verify(&[options, &[&path]].concat()).json()[0];
+            assert_eq!(
+                line["notes"].to_string().contains(note),
+                warned,
+                "{config}: {line}"
+            );
+        }
+        let asked_of_global = verify(&["overview", "--json", "--pipeline", "global", &path]);
+        let asked_of_global = asked_of_global.json();
+        assert_eq!(sizes(&asked_of_global[0]), incremental, "{config}");
+        assert_eq!(global_sizes(&asked_of_global[0]), global, "{config}");
+    }
+}
+
+/// Of parts that consist of watermarks global mapping makes no model, and of degenerate pairs neither does.
+#[test]
+fn parts_without_base_lines_are_said() {
+    let (made, group) = groups(&[9, 9]);
+    for (config, incremental) in [(7, &[9, 9][..]), (1, &[9])] {
+        let path = made.write(|a, b| {
+            let of = [group[a as usize], group[b as usize]];
+            (of[0] == of[1]).then_some((ALL, if of[0] == 0 { 3 } else { config }))
+        });
+        let (line, code) = overview(&path);
+        assert_eq!((code, global_sizes(&line)), (1, vec![9]), "{config}");
+        assert_eq!(sizes(&line), incremental, "{config}");
+        let without = line["without_base_line"].as_array().unwrap();
+        assert_eq!(without.len(), 1, "{config}");
+        assert_eq!(
+            (
+                &without[0]["pairs"],
+                without[0]["groups"].as_array().unwrap().len()
+            ),
+            (&json!(36), 9)
+        );
+    }
+}
+
+/// Ten photographs of a panorama: all pairs are planar or panoramic, with rays 0.1 degrees apart. pycolmap
+/// 4.2.1 makes no model, in neither mapper.
+#[test]
+fn a_panorama_determines_nothing() {
+    let Some(path) = data().map(|data| data.join("turn4/photos/pano.db")) else {
+        return;
+    };
+    let path = path.to_str().unwrap();
+    let (line, code) = overview(path);
+    assert_eq!((code, &line["determined"]), (1, &json!(false)));
+    assert_eq!((sizes(&line), global_sizes(&line)), (vec![], vec![]));
+    let without = &line["without_base_line"][0];
+    assert_eq!(
+        (&without["part"], &without["pairs"]),
+        (&json!(1), &json!(27))
+    );
+    assert_eq!(without["configurations"], json!(["planar or panoramic"]));
+    let run = verify(&["overview", path]);
+    let warned = "  warning     part 1, 10 images: no pair has a base line that shows (27 pairs: planar or panoramic),";
+    assert_eq!(run.out.lines().nth(1), Some(warned), "{}", run.out);
+    assert!(
+        words(&[path])
+            .contains("note 27 used pairs (planar or panoramic) have no base line that shows")
+    );
+    // The rays of a wall are farther apart.
+    let Some(wall) = sample("photos_banana.db") else {
+        return;
+    };
+    let (line, _) = overview(wall.to_str().unwrap());
+    assert!(line.get("without_base_line").is_none(), "{line}");
+}
+
+/// A list of eight: the seventh and the eighth see 14 points of the others, too few for incremental mapping,
+/// though the tracks determine all.
+#[test]
+fn lists_are_whole_if_both_mappers_make_them() {
+    let group: Vec<u32> = (0..6).collect();
+    let made = Made::new(
+        8,
+        &[
+            (group.clone(), 150),
+            (vec![0, 1, 6], 14),
+            (vec![0, 1, 7], 14),
+            (vec![0, 6, 7], 28),
+        ],
+    );
+    let path = made.write(|_, _| Some((ALL, 3)));
+    let list = |name: &str, images: u32| {
+        let file = made.folder.path().join(name);
+        let names: String = (0..images)
+            .map(|image| format!("{image:02}.jpg\n"))
+            .collect();
+        std::fs::write(&file, names).unwrap();
+        file.to_str().unwrap().to_owned()
+    };
+    let (all, six) = (list("all.txt", 8), list("six.txt", 6));
+    let run = verify(&["lists", "--json", &path, &all, &six]);
+    let line = valid(&schema(), &run).remove(0);
+    let names: Vec<String> = group
+        .iter()
+        .map(|image| format!("{image:02}.jpg"))
+        .collect();
+    let [first, second] = [&line["lists"][0], &line["lists"][1]];
+    assert_eq!(
+        (run.code, &first["whole"], &second["whole"]),
+        (1, &json!(false), &json!(true))
+    );
+    assert_eq!(
+        (&first["parts"], &second["parts"]),
+        (&json!([names]), &json!([names]))
+    );
+    assert_eq!(first["outside"], json!(["06.jpg", "07.jpg"]));
+    // The overview says the same of what it is asked about.
+    assert_eq!(first["mappers"], overview(&path).0["mappers"]);
+    let said = "8 images, not whole: 1 part (6 images), in none: 06.jpg, 07.jpg";
+    assert!(words(&["lists", &path, &all]).contains(said));
 }

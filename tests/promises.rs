@@ -351,7 +351,7 @@ fn focal_lengths_that_are_guesses() {
         let (run, line) = made.overview();
         assert_eq!(run.code, code, "{}", run.out);
         let condition = format!("{RIGHT}{focal}");
-        let promise = format!("one model of all 6 images, all determined {condition}\n");
+        let promise = format!("one model of all 6 images, all determined {condition} (COLMAP 4.2)");
         assert!(run.out.contains(&promise), "{promise}: {}", run.out);
         assert_eq!(
             (&line["condition"], &line["determined"]),
@@ -715,7 +715,8 @@ fn spherical_cameras() {
     let (run, line) = made.overview();
     assert_eq!(run.code, 0, "{}", run.out);
     assert!(
-        run.out.contains(&format!("all determined {RIGHT}\n")),
+        run.out
+            .contains(&format!("all determined {RIGHT} (COLMAP 4.2)\n")),
         "{}",
         run.out
     );

@@ -602,5 +602,6 @@ fn lists_of_a_database_have_tracks_of_their_own() {
         "2",
         "--json",
     ]);
-    assert_eq!(found.json()[0]["lists"][0]["whole"], true, "{}", found.out);
+    // Points of two images hold the two together, and no mapper makes a model of two.
+    assert_eq!(found.json()[0]["lists"][0]["whole"], false, "{}", found.out);
 }

@@ -182,7 +182,7 @@ def tell(arguments):
         apart = ", ".join(f"{x:.3f}" for x in apart if x is not None) or "-"
         row = [path.stem, line["of"], line["pairs"]["pairs"], pairs_of(line["pairs"]["calibrated"]), parts_of(line),
                " + ".join(map(str, sizes(truth["models"]["global"]))) or "none",
-               len(said["global"]["images"]), " + ".join(map(str, sizes(made))) or "none",
+               " + ".join(str(len(model["images"])) for model in said["global"]["models"]), " + ".join(map(str, sizes(made))) or "none",
                " + ".join(map(str, sizes(foreseen))) or "none", f"{100 * right / of:.1f} %" if of else "-", apart,
                ", ".join(" + ".join(map(str, parts)) for parts in split(arguments.verify, path)) or "-"]
         print("| " + " | ".join(map(str, row)) + " |", flush=True)

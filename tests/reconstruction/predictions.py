@@ -244,7 +244,7 @@ def judge(arguments):
         warned = any(place["special"] for places in line["narrow"].values() for place in places)
         predicted = [set(model["images"]) for model in said["incremental"]["models"]]
         models = [set(model) for model in truth["models"]["incremental"]]
-        whole = set(said["global"]["images"]) if said["global"]["images"] else set()
+        foreseen = said["global"]["models"]
         of = truth.get("of", "synthetic") if truth["clusters"] else "photographs"
         tally[of, "databases"] += 1
         tally[of, "exact"] += sizes(predicted) == sizes(models)
@@ -252,13 +252,13 @@ def judge(arguments):
         if not truth["clusters"]:
             full = sorted(map(len, truth["models"]["global"]), reverse=True)
             print(f"{record.stem}: incremental {sizes(models)}, predicted {sizes(predicted)}; "
-                  f"global {full}, predicted {len(whole)}")
+                  f"global {full}, predicted {[len(model['images']) for model in foreseen]}")
         for a, b, placed in truth["placed"]:
             one, other = (set(truth["clusters"][k]) for k in (a, b))
             joined, expected = together(models, one, other), together(predicted, one, other)
             tally[of, "pairs"] += 1
             tally[of, "incremental", joined, expected] += 1
-            promise = any(one | other <= set(part) for part in said["global"]["parts"])
+            promise = any(one | other <= set(part) for model in foreseen for part in model["parts"])
             tally[of, "global", bool(placed), promise] += 1
             if promise:
                 of_promise = "kept" if placed else "broken"

@@ -33,7 +33,7 @@ mod task;
 mod words;
 
 pub use explain::{Explanation, explain};
-pub use foreseen::foreseen;
+pub use foreseen::{Tracks, foreseen};
 pub use joints::{How, Joint, Joints, Shapes, joints};
 pub use named::Advice;
 pub use noticed::{Break, Lost, Surplus, redundant, surplus};

@@ -9,6 +9,7 @@
 //! of that graph have one scale.
 
 use crate::condensation::chain;
+use crate::mapper::Foreseen;
 use anyhow::{Result, bail, ensure};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -25,8 +26,11 @@ pub struct List {
     pub file: String,
     /// Its images, increasing.
     pub images: Vec<u32>,
-    /// The images of each component that has two of them or more, increasing; larger ones first.
+    /// The images of each component that has two of them or more, increasing; larger ones first. Of a
+    /// database, those that both mappers are likely to put into one model.
     pub bodies: Vec<Vec<u32>>,
+    /// What mappers will probably do with it, if it is of a database.
+    pub mappers: Option<Foreseen>,
 }
 
 impl List {
@@ -42,6 +46,23 @@ impl List {
             file,
             images,
             bodies,
+            mappers: None,
+        }
+    }
+
+    /// The same list by what mappers will probably do: `name` says how its images are called.
+    #[must_use]
+    pub fn mapped(self, mappers: Foreseen, name: impl Fn(u32) -> String) -> Self {
+        let bodies = self.bodies.iter().flat_map(|body| {
+            let names: Vec<String> = body.iter().map(|&image| name(image)).collect();
+            let together = mappers.together(&names).into_iter();
+            let images = |set: Vec<usize>| set.into_iter().map(|k| body[k]).collect();
+            together.map(images).collect::<Vec<Vec<u32>>>()
+        });
+        let bodies = bodies.collect();
+        Self {
+            mappers: Some(mappers),
+            ..Self::new(self.file, self.images, bodies)
         }
     }
 
@@ -85,7 +106,7 @@ pub fn images(input: &NamedGraph, file: &Path) -> Result<(Vec<u32>, usize)> {
 }
 
 /// What lists determine, each by itself and together.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Lists {
     /// The lists, in the order in which they were named.
     pub lists: Vec<Found>,
@@ -101,7 +122,7 @@ pub struct Lists {
 }
 
 /// What one list determines by itself.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Found {
     /// Its file.
     pub file: String,
@@ -109,10 +130,13 @@ pub struct Found {
     pub images: usize,
     /// Whether they are determined against each other.
     pub whole: bool,
-    /// How many images each of its parts has, falling.
-    pub parts: Vec<usize>,
+    /// The images of each of its parts, larger ones first.
+    pub parts: Vec<Vec<String>>,
     /// Its images in no part.
     pub outside: Vec<String>,
+    /// What mappers will probably do with it, if it is of a database.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mappers: Option<Foreseen>,
 }
 
 /// What two lists have in common.
@@ -159,8 +183,9 @@ pub fn lists(
             file: list.file.clone(),
             images: list.images.len(),
             whole: list.is_whole(),
-            parts: list.bodies.iter().map(Vec::len).collect(),
+            parts: list.bodies.iter().map(|body| names(body)).collect(),
             outside: names(&outside.collect::<Vec<u32>>()),
+            mappers: list.mappers.clone(),
         }
     });
     let pairs = (0..lists.len()).flat_map(|b| (0..b).map(move |a| (a, b)));
@@ -271,7 +296,7 @@ mod tests {
         let found = [whole(&[0, 1, 2, 3]), broken];
         let found = lists(&found, 8, |v| v.to_string(), 1, Watch::default()).unwrap();
         assert!(!found.determined);
-        assert_eq!(found.lists[1].parts, [2, 2]);
+        assert_eq!(found.lists[1].parts, [["4", "5"], ["2", "3"]]);
         assert_eq!(found.lists[1].outside, ["6"]);
         assert_eq!(found.outside, ["7"]);
         assert_eq!(found.overlaps[0].images, ["2", "3"]);

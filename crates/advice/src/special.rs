@@ -7,7 +7,7 @@
 //! estimates of the database, and no verdict depends on them.
 
 use crate::frames::Images;
-use crate::mapper::{Estimate, Geometry};
+use crate::mapper::Geometry;
 use crate::named::Names;
 use crate::narrow::{self, Cut, Hinges};
 use anyhow::Result;
@@ -16,9 +16,7 @@ use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use viewcert::{Graph, Verdict};
 use viewcert_formats::NamedGraph;
-
-/// Rays less far apart than so many degrees, in the median, tell next to nothing of a distance.
-pub const LEAST_ANGLE: f64 = 1.0;
+use viewcert_formats::colmap::{Estimate, LEAST_ANGLE};
 
 /// Three places less far from one line than so many degrees count as on it.
 const LINE: f64 = 2.0;

@@ -3,8 +3,9 @@
 //! In: a simulation ([`Foreseen`]), which no verdict depends on. Out: a line or two for each mapper.
 
 use super::counted;
+use serde::Serialize;
 use std::io::{self, Write};
-use viewcert_advice::mapper::{Beginning, Foreseen, Models, Sees, Thresholds};
+use viewcert_advice::mapper::{Beginning, Foreseen, GlobalModel, Models, Sees, Thresholds};
 
 /// How many models, and how many pairs to begin with, are shown.
 const SHOWN: usize = 8;
@@ -35,28 +36,61 @@ pub(crate) fn write<W: Write>(
     Ok(())
 }
 
-/// "one model of 15 of 16 images, all determined if every pair is right".
+/// "one model of 15 of 16 images, all determined if every pair is right (COLMAP 4.2)".
 fn global(foreseen: &Foreseen, condition: &str) -> String {
-    let global = &foreseen.global;
-    let size = global.images.len();
-    if size == 0 {
-        return "no model: no image sees a track that counts".to_owned();
-    }
-    let images = all_of(size, global.of) + &in_frames(global.frames);
-    let whole = global.parts.iter().any(|part| part.len() == size);
-    if whole {
-        return format!("one model of {images}, all determined {condition}");
-    }
-    let sizes: Vec<usize> = global.parts.iter().map(Vec::len).collect();
-    match sizes.len() {
-        0 => format!("one model of {images}, and the tracks determine no two of them"),
-        1 => format!(
-            "one model of {images}, of which the tracks determine {} {condition}",
-            sizes[0]
+    let of = foreseen.global.of;
+    let images = |model: &GlobalModel| all_of(model.images.len(), of) + &in_frames(model.frames);
+    let words = match &foreseen.global.models[..] {
+        [] => "no model: no three images have a connected part, base lines and a track that counts"
+            .to_owned(),
+        [model] => format!(
+            "one model of {}{}",
+            images(model),
+            determined(model, condition)
         ),
-        count => format!(
-            "one model of {images}, in which {count} parts ({}) are not determined against each \
-             other: they may be silently misplaced",
+        models => {
+            let sizes: Vec<usize> = models.iter().map(|model| model.images.len()).collect();
+            let several = format!(
+                "{} models of {} images, one for each connected part",
+                models.len(),
+                several(&sizes, " + ")
+            );
+            let is_whole = |model: &GlobalModel| {
+                model
+                    .parts
+                    .iter()
+                    .any(|part| part.len() == model.images.len())
+            };
+            let mut broken = models.iter().filter(|model| !is_whole(model));
+            match (broken.next(), broken.count()) {
+                (None, _) => several + &determined(&models[0], condition),
+                (Some(model), more) => {
+                    let of_one = format!(
+                        "{several}; in the one of {}{}",
+                        images(model),
+                        determined(model, condition)
+                    );
+                    match more {
+                        0 => of_one,
+                        more => format!("{of_one}; {more} more are broken (--json)"),
+                    }
+                }
+            }
+        }
+    };
+    format!("{words} (COLMAP {})", foreseen.colmap)
+}
+
+/// How much of a model the tracks determine, under a condition.
+fn determined(model: &GlobalModel, condition: &str) -> String {
+    let sizes: Vec<usize> = model.parts.iter().map(Vec::len).collect();
+    match sizes[..] {
+        [size, ..] if size == model.images.len() => format!(", all determined {condition}"),
+        [] => ", and the tracks determine no two of them".to_owned(),
+        [size] => format!(", of which the tracks determine {size} {condition}"),
+        _ => format!(
+            ", in which {} parts ({}) are not determined against each other: they may be silently misplaced",
+            sizes.len(),
             several(&sizes, ", ")
         ),
     }
@@ -71,9 +105,10 @@ fn incremental(foreseen: &Foreseen) -> String {
             .to_owned();
     }
     let simulated = match unfit(models) {
-        None => "(simulated, not proved)".to_owned(),
+        None => format!("(simulated for COLMAP {}, not proved)", foreseen.colmap),
         Some(unfit) => format!(
-            "(simulated, not proved; uncertain, as {unfit} of {} pairs to begin with are unfit)",
+            "(simulated for COLMAP {}, not proved; uncertain, as {unfit} of {} pairs to begin with are unfit)",
+            foreseen.colmap,
             models.starts.len()
         ),
     };
@@ -160,6 +195,41 @@ fn beginning(start: &Beginning) -> String {
         Some(unfit) => format!("unfit: {unfit}"),
     };
     format!("{one} {other} ({}): {verdict}", numbers.join(", "))
+}
+
+/// A part whose images no pairs with a base line hold together.
+#[derive(Serialize)]
+pub struct WithoutBaseLine {
+    /// The part, from 1.
+    pub(crate) part: usize,
+    /// The images that such pairs connect, larger groups first.
+    pub(crate) groups: Vec<Vec<String>>,
+    /// How many pairs lead from one group to another.
+    pub(crate) pairs: usize,
+    /// Their configurations.
+    pub(crate) configurations: Vec<&'static str>,
+}
+
+impl WithoutBaseLine {
+    /// What that means.
+    pub(crate) fn words(&self) -> String {
+        let sizes: Vec<usize> = self.groups.iter().map(Vec::len).collect();
+        let [pairs, images] =
+            [(self.pairs, "pair"), (sizes.iter().sum(), "image")].map(|(n, of)| counted(n, of));
+        let configurations = self.configurations.join(", ");
+        let part = self.part;
+        let (between, nothing) = match sizes[0] {
+            1 => (String::new(), "where the cameras are"),
+            _ => (
+                format!("between groups of {} images ", several(&sizes, " + ")),
+                "how the groups lie to each other",
+            ),
+        };
+        format!(
+            "part {part}, {images}: {between}no pair has a base line that shows ({pairs}: {configurations}), \
+             so none has a fundamental matrix, and nothing says {nothing}"
+        )
+    }
 }
 
 /// " (10 frames)", where frames have several images.

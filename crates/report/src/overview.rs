@@ -14,6 +14,7 @@ use super::{
 use crate::advice::{joints as write_joints, photograph, suggestions as write_suggestions};
 use crate::assumptions::BaseLines;
 use crate::intrinsics::IntrinsicsLine;
+use crate::mappers::WithoutBaseLine;
 use serde::Serialize;
 use std::cell::OnceCell;
 use std::collections::HashMap;
@@ -24,7 +25,7 @@ use viewcert_advice::Advice;
 use viewcert_advice::mapper::{Foreseen, Sees};
 use viewcert_advice::named::Suggestion;
 use viewcert_advice::special::Narrow;
-use viewcert_formats::colmap::{DatabaseFacts, Pipeline};
+use viewcert_formats::colmap::{DatabaseFacts, Groups, Pipeline};
 use viewcert_formats::{NamedGraph, ReadAs, TrackOptions};
 
 /// How many parts are shown with their sizes.
@@ -63,6 +64,8 @@ pub struct Overview<'a> {
     pub narrow: Narrow,
     /// The parts of `tracks`, found when they are asked for first.
     pub parts: OnceCell<Option<Parts>>,
+    /// Parts that no pairs with a base line hold together.
+    pub without_base_line: Vec<WithoutBaseLine>,
     /// Commands that lead on from here.
     pub next: Vec<Next>,
     /// How long it took.
@@ -234,7 +237,8 @@ impl Overview<'_> {
     }
 
     /// Whether the tracks, or without any the calibrated pairs, determine all images: none may be
-    /// without a pair, or with a focal length that is a guess and that mappers do not find.
+    /// without a pair, or with a focal length that is a guess and that mappers do not find, and pairs with a
+    /// base line have to hold them together.
     pub fn determined(&self) -> bool {
         self.is_promised() && self.guessed() == 0 && self.no_model().is_none()
     }
@@ -242,7 +246,28 @@ impl Overview<'_> {
     /// The same, whatever focal lengths are, and whether mappers make anything of it.
     pub(crate) fn is_promised(&self) -> bool {
         let all_paired = self.wanted.images.len() == self.wanted.all as usize;
-        all_paired && self.is_one_part()
+        all_paired && self.is_one_part() && self.without_base_line.is_empty()
+    }
+
+    /// Finds the parts that no pairs with a base line hold together; `groups` splits images by such pairs.
+    ///
+    /// # Errors
+    /// Those of `groups`.
+    pub fn split_by_base_lines<E>(
+        &mut self,
+        groups: impl FnOnce(&[Vec<u32>]) -> Result<Vec<Groups>, E>,
+    ) -> Result<(), E> {
+        let parts = self.parts().map(|parts| parts.images).unwrap_or_default();
+        let found = (1..).zip(groups(&parts)?);
+        let found = found.filter(|(_, part)| !part.is_one());
+        let found = found.map(|(part, groups)| WithoutBaseLine {
+            part,
+            groups: groups.groups.iter().map(|one| self.named(one)).collect(),
+            pairs: groups.pairs,
+            configurations: groups.configs,
+        });
+        self.without_base_line = found.collect();
+        Ok(())
     }
 
     /// What is known of the database, if it is one.
@@ -439,6 +464,9 @@ impl Overview<'_> {
     /// Those of the writer.
     pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
         writeln!(out, "{}", self.name)?;
+        for part in &self.without_base_line {
+            wrapped(out, "warning", &part.words())?;
+        }
         writeln!(out, "  read as     {}", self.read)?;
         match (self.no_model(), &self.mappers) {
             (Some(why), _) => wrapped(out, "mappers", &why)?,
@@ -507,7 +535,10 @@ impl Overview<'_> {
             format!("averaging {}", follows.averaging),
         ];
         // The first lines have said it.
-        let are_parts = |foreseen: &Foreseen| foreseen.global.parts.len() > 1;
+        let are_parts = |foreseen: &Foreseen| {
+            let mut models = foreseen.global.models.iter();
+            models.any(|model| model.parts.len() > 1)
+        };
         if self.no_model().is_none() && self.mappers.as_ref().is_some_and(are_parts) {
             words.remove(0);
         }
@@ -651,6 +682,7 @@ impl Overview<'_> {
                 _ => Vec::new(),
             },
             in_no_part: self.named(&self.in_no_part()),
+            without_base_line: &self.without_base_line,
             narrow: &self.narrow,
             mappers: self.mappers.as_ref().filter(|_| self.no_model().is_none()),
             no_model: self.no_model(),
@@ -688,6 +720,8 @@ struct Line<'a> {
     of: usize,
     parts: Vec<part_names::PartLine>,
     in_no_part: Vec<String>,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    without_base_line: &'a [WithoutBaseLine],
     narrow: &'a Narrow,
     #[serde(skip_serializing_if = "Option::is_none")]
     mappers: Option<&'a Foreseen>,

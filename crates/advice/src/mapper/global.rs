@@ -1,34 +1,39 @@
-//! Global mapping: one model of the largest connected part.
+//! Global mapping: one model of each connected part.
 
-use super::Scene;
 use viewcert::graph::UnionFind;
 
-/// The images that the one model of global mapping is likely to have, increasing: those of the
-/// largest connected part of pairs and frames that see a point that counts, or whose frame does.
-/// O(images + pairs).
-pub(super) fn global(scene: Scene) -> Vec<u32> {
-    let mut parts = UnionFind::new(scene.images);
-    for &((a, b), _) in scene.pairs {
+/// With how many images a connected part becomes a model where COLMAP's options are not changed
+/// (`GlobalPipelineOptions::min_model_size`, version 4.2).
+const LEAST: usize = 3;
+
+/// The images of the models that global mapping is likely to make of the pairs that it takes, larger ones
+/// first: those of each connected part of pairs and frames of which `sees_point` holds, or of whose frame it
+/// does. O(images + pairs).
+pub(super) fn global(
+    pairs: &[((u32, u32), u32)],
+    mut sees_point: Vec<bool>,
+    frames: &[Vec<u32>],
+) -> Vec<Vec<u32>> {
+    let images = sees_point.len();
+    let mut parts = UnionFind::new(images);
+    for &((a, b), _) in pairs {
         parts.union(a as usize, b as usize);
     }
-    let mut seeing: Vec<bool> = (0..scene.images as u32)
-        .map(|image| !scene.tracks.edges_from(image).is_empty())
-        .collect();
-    for frame in scene.frames {
-        let sees = frame.iter().any(|&image| seeing[image as usize]);
+    for frame in frames {
+        let sees = frame.iter().any(|&image| sees_point[image as usize]);
         for &image in frame {
             parts.union(frame[0] as usize, image as usize);
-            seeing[image as usize] = sees;
+            sees_point[image as usize] = sees;
         }
     }
-    let mut sizes = vec![0u32; scene.images];
-    for image in 0..scene.images {
-        sizes[parts.find(image)] += 1;
+    let mut models: Vec<(usize, Vec<u32>)> = vec![(0, Vec::new()); images];
+    for image in 0..images as u32 {
+        let (size, model) = &mut models[parts.find(image as usize)];
+        *size += 1;
+        model.extend(sees_point[image as usize].then_some(image));
     }
-    let Some(largest) = (0..scene.images).rev().max_by_key(|&root| sizes[root]) else {
-        return Vec::new();
-    };
-    (0..scene.images as u32)
-        .filter(|&image| parts.find(image as usize) == largest && seeing[image as usize])
-        .collect()
+    models.retain(|(size, model)| *size >= LEAST && !model.is_empty());
+    let mut models: Vec<Vec<u32>> = models.into_iter().map(|(_, model)| model).collect();
+    models.sort_by_key(|model| (std::cmp::Reverse(model.len()), model[0]));
+    models
 }

@@ -1,25 +1,25 @@
-//! How a model grows: an image is added, with all of its frame, if it sees enough points that two images
-//! of the model see, whose rays are not nearly parallel.
+//! How a model grows: an image is added, with all of its frame, if enough of its features are matched with
+//! features of the model that see a point.
+//!
+//! A point is made of matched features of two images of the model, whose rays are not nearly parallel, if a
+//! third feature is matched with one of the two. It is seen by every feature of the model that matches lead to.
 //!
 //! Images only become more visible as a model grows, so what is reached does not depend on the order;
 //! only where a model stops because it shares too much with earlier ones, it does.
 
 use super::{Scene, Thresholds};
 use std::collections::{HashMap, HashSet, VecDeque};
-use viewcert::graph::Lists;
 
-/// The tracks, and a model that grows in them.
+/// The matches, and a model that grows in them.
 pub(super) struct Growth<'a> {
     scene: Scene<'a>,
-    /// The images of every point.
-    images_of: Lists,
     /// Pairs of images whose rays are nearly parallel: no points are made of them, smaller image first.
     blind: HashSet<(u32, u32)>,
-    /// Whether each point is made.
-    made: Vec<bool>,
-    /// Whether an image of the model sees each point.
+    /// Whether each feature is of the model and sees a point.
+    pointed: Vec<bool>,
+    /// Whether each feature is matched with one that does.
     seen: Vec<bool>,
-    /// How many points of the model each image sees.
+    /// How many of these each image has.
     visible: Vec<u32>,
     in_model: Vec<bool>,
     /// For every image its place in the frames of the scene, if it is in one.
@@ -29,43 +29,20 @@ pub(super) struct Growth<'a> {
 }
 
 impl<'a> Growth<'a> {
-    /// No model yet. O(observations).
+    /// No model yet. O(features).
     pub(super) fn new(scene: Scene<'a>, blind: HashSet<(u32, u32)>) -> Self {
-        let images = scene.images as u32;
-        let points = scene.tracks.nodes() - scene.images;
-        let seen_by = scene.tracks.edges().iter();
-        let seen_by = seen_by.map(move |&(image, point)| (point - images, image));
         let frames = scene.frames.iter().enumerate();
         let frames = frames.flat_map(|(k, frame)| frame.iter().map(move |&image| (image, k)));
         Self {
             scene,
             frame_of: frames.collect(),
-            images_of: Lists::group(points, seen_by),
             blind,
-            made: vec![false; points],
-            seen: vec![false; points],
+            pointed: vec![false; scene.features.count()],
+            seen: vec![false; scene.features.count()],
             visible: vec![0; scene.images],
             in_model: vec![false; scene.images],
             model: Vec::new(),
         }
-    }
-
-    /// How many points two images both see. O(points of both).
-    pub(super) fn shared(&self, (a, b): (u32, u32)) -> usize {
-        let points = |image: u32| {
-            self.scene
-                .tracks
-                .edges_from(image)
-                .iter()
-                .map(|edge| edge.1)
-        };
-        let mut others = points(b).peekable();
-        points(a)
-            .filter(|&point| {
-                while others.next_if(|&other| other < point).is_some() {}
-                others.next_if_eq(&point).is_some()
-            })
-            .count()
     }
 
     /// How many points of the model an image sees.
@@ -79,7 +56,7 @@ impl<'a> Growth<'a> {
     }
 
     /// Grows a model from two images until no image can be added, or until `crowded` says so of the
-    /// image that was added last. O(observations of the model).
+    /// image that was added last. O(matches of the model).
     pub(super) fn grow(
         &mut self,
         start: (u32, u32),
@@ -120,39 +97,54 @@ impl<'a> Growth<'a> {
     fn add(&mut self, image: u32, needs: u32, next: &mut VecDeque<u32>) {
         self.in_model[image as usize] = true;
         self.model.push(image);
-        let images = self.scene.images as u32;
-        for &(_, point) in self.scene.tracks.edges_from(image) {
-            let point = (point - images) as usize;
-            let first = !std::mem::replace(&mut self.seen[point], true);
-            if !first && !self.made[point] && self.makes(image, point) {
-                self.made[point] = true;
-                for &other in self.images_of.of(point) {
-                    let visible = &mut self.visible[other as usize];
-                    *visible += 1;
-                    if *visible == needs && !self.in_model[other as usize] {
-                        next.push_back(other);
+        let features = self.scene.features;
+        for feature in features.of(image) {
+            if !self.makes(image, feature) {
+                continue;
+            }
+            // A point is seen wherever matches lead inside the model.
+            let mut reached = vec![feature];
+            while let Some(feature) = reached.pop() {
+                if std::mem::replace(&mut self.pointed[feature], true) {
+                    continue;
+                }
+                for other in features.matched(feature) {
+                    let image = features.image(other);
+                    if self.has(image) {
+                        reached.push(other);
+                    } else if !std::mem::replace(&mut self.seen[other], true) {
+                        let visible = &mut self.visible[image as usize];
+                        *visible += 1;
+                        if *visible == needs {
+                            next.push_back(image);
+                        }
                     }
                 }
             }
         }
     }
 
-    /// Whether an image makes a point together with another one of the model that sees it.
-    fn makes(&self, image: u32, point: usize) -> bool {
+    /// Whether a feature of an image of the model sees a point, or makes one with another of the model.
+    fn makes(&self, image: u32, feature: usize) -> bool {
+        let features = self.scene.features;
         let apart = |other: u32| !self.blind.contains(&(image.min(other), image.max(other)));
-        let mut others = self.images_of.of(point).iter().copied();
-        self.blind.is_empty()
-            || others.any(|other| other != image && self.has(other) && apart(other))
+        let makes = |other: usize| {
+            let its = features.image(other);
+            self.pointed[other] || (its != image && self.has(its) && apart(its))
+        };
+        !features.is_alone(feature) && features.matched(feature).any(makes)
     }
 
-    /// Forgets the model. O(observations of the model).
+    /// Forgets the model. O(matches of the model).
     fn clear(&mut self) {
-        let images = self.scene.images as u32;
+        let features = self.scene.features;
         for image in std::mem::take(&mut self.model) {
             self.in_model[image as usize] = false;
-            for &(_, point) in self.scene.tracks.edges_from(image) {
-                self.seen[(point - images) as usize] = false;
-                self.made[(point - images) as usize] = false;
+            for feature in features.of(image) {
+                self.pointed[feature] = false;
+                for other in features.matched(feature) {
+                    self.seen[other] = false;
+                }
             }
         }
         self.visible.fill(0);

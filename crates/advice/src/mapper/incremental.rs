@@ -7,7 +7,7 @@
 use super::geometry::Cached;
 use super::growth::Growth;
 use super::starts::{Start, Starts};
-use super::{Geometry, Scene, Thresholds};
+use super::{Features, Geometry, Scene, Thresholds};
 use anyhow::Result;
 use std::collections::HashSet;
 
@@ -56,6 +56,7 @@ pub struct Stop {
 /// The state between models.
 struct Run<'a> {
     thresholds: Thresholds,
+    features: &'a Features,
     growth: Growth<'a>,
     starts: Starts,
     /// In how many models every image is.
@@ -67,7 +68,7 @@ struct Run<'a> {
     models: Vec<SimulatedModel>,
 }
 
-/// Simulates incremental mapping. O(observations) for each model that is begun, of which there are
+/// Simulates incremental mapping. O(matches) for each model that is begun, of which there are
 /// few, and the reading of what geometry knows of the pairs that are looked at.
 ///
 /// # Errors
@@ -82,6 +83,7 @@ pub fn incremental(
     let blind = blind(scene, geometry, &thresholds)?;
     let mut run = Run {
         thresholds,
+        features: scene.features,
         growth: Growth::new(scene, blind),
         starts: Starts::new(scene, geometry),
         registered: vec![0; scene.images],
@@ -147,13 +149,17 @@ impl Run<'_> {
         for _ in 0..self.thresholds.init_num_trials {
             let registered = &self.registered;
             let free = |image: u32| registered[image as usize] == 0;
-            let start = self
-                .starts
-                .next(&self.thresholds, &self.growth, geometry, free)?;
+            let start = self.starts.next(
+                &self.thresholds,
+                &self.growth,
+                self.features,
+                geometry,
+                free,
+            )?;
             let Some(start) = start else {
                 return Ok(true);
             };
-            if self.growth.shared(start) < self.thresholds.abs_pose_min_num_inliers as usize {
+            if self.features.shared(start) < self.thresholds.abs_pose_min_num_inliers as usize {
                 continue;
             }
             self.model(start);

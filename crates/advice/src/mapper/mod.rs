@@ -1,8 +1,8 @@
 //! What COLMAP's mappers will probably do with a database: a simulation, and no proof.
 //!
-//! In: the camera-point graph of the tracks, the pairs with their inliers, and what is known of the
-//! geometry of pairs. Out: the models of incremental mapping, with what each starts from and where
-//! it stops, and the images of the one model of global mapping ([`Foreseen`]).
+//! In: for each mapper the pairs that COLMAP 4.2 takes, the matches, the camera-point graph of the tracks,
+//! and what is known of the geometry of pairs. Out: the models of incremental mapping, with what each
+//! starts from and where it stops, and the models of global mapping ([`Foreseen`]).
 //!
 //! COLMAP registers frames, not images: an image that sees enough brings all of its frame along.
 //!
@@ -11,6 +11,7 @@
 //! on this module, and it is the only one of the library that says what is likely. How often it was
 //! right is in docs/reconstruction.md.
 
+mod features;
 mod geometry;
 mod global;
 mod growth;
@@ -19,19 +20,18 @@ mod named;
 mod starts;
 mod thresholds;
 
-pub use geometry::{Estimate, Geometry, estimate};
+pub use features::Features;
+pub use geometry::Geometry;
 pub use incremental::{Incremental, SimulatedModel, Stop, incremental};
-pub use named::{Beginning, Foreseen, Global, Model, Models, Sees, foresee};
+pub use named::{Beginning, Foreseen, Global, GlobalModel, Model, Models, Sees, Taken, foresee};
 pub use starts::{Start, Unfit};
 pub use thresholds::Thresholds;
 
-use viewcert::Graph;
-
-/// What a mapper has to begin with.
+/// What incremental mapping has to begin with.
 #[derive(Clone, Copy, Debug)]
 pub struct Scene<'a> {
-    /// The camera-point graph; the first `images` nodes are the images.
-    pub tracks: &'a Graph,
+    /// The features of the images, and their matches.
+    pub features: &'a Features,
     /// How many images there are.
     pub images: usize,
     /// The pairs with enough verified matches, and how many they have; the smaller image first.

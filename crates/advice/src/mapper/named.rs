@@ -3,32 +3,73 @@
 
 use super::global::global;
 use super::incremental::{Incremental, Stop, incremental};
-use super::{Geometry, Scene, Start, Thresholds};
+use super::{Features, Geometry, Scene, Start, Thresholds};
 use crate::frames::Images;
 use crate::named::Names;
 use anyhow::Result;
 use serde::Serialize;
-use viewcert::Verdict;
+use std::cmp::Reverse;
 use viewcert_formats::NamedGraph;
+use viewcert_formats::colmap::Groups;
+
+/// The version of COLMAP whose mappers are simulated.
+const COLMAP: &str = "4.2";
 
 /// What COLMAP's mappers will probably do: a simulation, and no proof.
 #[derive(Clone, Debug, Serialize)]
 pub struct Foreseen {
     /// Always true: says so in JSON.
     pub simulated: bool,
-    /// The one model of global mapping.
+    /// The version of COLMAP whose mappers these are.
+    pub colmap: &'static str,
+    /// The models of global mapping.
     pub global: Global,
     /// The models of incremental mapping.
     pub incremental: Models,
 }
 
-/// The one model of global mapping.
+/// The models of global mapping, larger ones first.
 #[derive(Clone, Debug, Serialize)]
 pub struct Global {
-    /// Its images.
-    pub images: Vec<String>,
+    /// One model for each connected part of the pairs that global mapping takes.
+    pub models: Vec<GlobalModel>,
     /// How many images the database has.
     pub of: usize,
+}
+
+impl Foreseen {
+    /// Images of a part that both mappers put into one model, by their places in it: the largest sets.
+    pub(crate) fn together(&self, part: &[String]) -> Vec<Vec<usize>> {
+        let global = self.global.models.iter().map(|model| &model.images);
+        let incremental = self.incremental.models.iter().map(|model| &model.images);
+        let incremental: Vec<_> = incremental.collect();
+        let mut sets: Vec<Vec<usize>> = Vec::new();
+        for global in global {
+            // What incremental mapping refuses says nothing.
+            let refused = self.incremental.refused.then_some(&global);
+            for own in incremental.iter().chain(refused) {
+                let in_both = |name: &String| global.contains(name) && own.contains(name);
+                let set = (0..part.len()).filter(|&k| in_both(&part[k]));
+                sets.push(set.collect());
+            }
+        }
+        sets.sort_by_key(|set| Reverse(set.len()));
+        let mut kept: Vec<Vec<usize>> = Vec::new();
+        for set in sets {
+            let is_in = |other: &Vec<usize>| set.iter().all(|k| other.contains(k));
+            if set.len() > 1 && !kept.iter().any(is_in) {
+                kept.push(set);
+            }
+        }
+        kept
+    }
+}
+
+/// A model of global mapping.
+#[derive(Clone, Debug, Serialize)]
+pub struct GlobalModel {
+    /// Its images.
+    pub images: Vec<String>,
     /// In how many frames these are, if any frame has several images.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub frames: Option<usize>,
@@ -100,64 +141,90 @@ pub struct Beginning {
     pub unfit: Option<&'static str>,
 }
 
-/// Simulates both mappers on the tracks of a database that `verdict` is about; nothing for tracks
-/// that are not from a database. `each` are the tracks with a camera for every image: these themselves,
-/// unless images of a frame are one camera.
+/// What mappers take of a database.
+pub struct Taken {
+    /// The pairs of incremental mapping, with their inliers, increasing.
+    pub incremental: Vec<((u32, u32), u32)>,
+    /// The matches of these.
+    pub features: Features,
+    /// The frames of the images.
+    pub frames: Images,
+    /// Whether the place of a sensor in its rig is not known.
+    pub refused: bool,
+    /// The pairs of global mapping.
+    pub global: Vec<((u32, u32), u32)>,
+    /// Whether each image sees a point that counts of these.
+    pub sees_point: Vec<bool>,
+    /// The parts that these tracks determine, as images.
+    pub parts: Vec<Vec<u32>>,
+}
+
+/// Simulates both mappers on a database with the images of `pairs`. `base_lines` says which images of each
+/// part pairs with a base line connect.
 ///
 /// # Errors
-/// Those of the geometry.
+/// Those of the geometry and of `base_lines`.
 pub fn foresee(
-    each: &NamedGraph,
-    (tracks, verdict): (&NamedGraph, &Verdict),
+    pairs: &NamedGraph,
+    taken: &Taken,
     geometry: &mut dyn Geometry,
-) -> Result<Option<Foreseen>> {
-    let (Some(count), Some(facts), Some(matching)) = (each.cameras, &each.database, &each.matching)
-    else {
-        return Ok(None);
-    };
-    let enough = matching.others.iter();
-    let enough = enough.filter(|pair| pair.inliers >= facts.min_inliers);
-    let pairs: Vec<((u32, u32), u32)> = enough.map(|pair| (pair.images, pair.inliers)).collect();
-    let known = Images::new(each, tracks);
+    base_lines: impl Fn(&[Vec<u32>]) -> Result<Vec<Groups>>,
+) -> Result<Foreseen> {
+    let names = Names::new(pairs);
+    let count = pairs.graph.nodes();
     let scene = Scene {
-        tracks: &each.graph,
-        images: count as usize,
-        pairs: &pairs,
-        frames: &known.frames,
+        features: &taken.features,
+        images: count,
+        pairs: &taken.incremental,
+        frames: &taken.frames.frames,
     };
     let thresholds = Thresholds::default();
-    let names = Names::new(each);
-    let all = |images: &[u32]| images.iter().map(|&image| names.of(image)).collect();
-    let one_model = global(scene);
-    let parts = verdict.components.iter().map(|part| {
-        let cameras = part.nodes();
-        let is_in = |image: &u32| cameras.binary_search(&known.camera_of(*image)).is_ok();
-        one_model.iter().copied().filter(is_in).collect()
-    });
-    let mut parts: Vec<Vec<u32>> = parts.filter(|images: &Vec<u32>| images.len() > 1).collect();
-    parts.sort_by_key(|images| std::cmp::Reverse(images.len()));
-    let frames = |images: &[u32]| (!known.frames.is_empty()).then(|| known.count(images));
-    let refused = tracks
-        .frames
-        .as_ref()
-        .is_some_and(|frames| frames.unknown > 0);
-    let found = match refused {
+    let frames = |images: &[u32]| {
+        let known = &taken.frames;
+        (!known.frames.is_empty()).then(|| known.count(images))
+    };
+    let found = match taken.refused {
         true => Incremental::default(),
         false => incremental(scene, geometry, thresholds)?,
     };
-    Ok(Some(Foreseen {
+    // Images of which no pair has a base line have no points, and nothing determines them.
+    let with_base_line = |parts: Vec<Vec<u32>>| -> Result<Vec<Vec<u32>>> {
+        let held = base_lines(&parts)?;
+        let parts = parts.into_iter().zip(held);
+        let parts = parts.filter(|(images, held)| held.groups.len() < images.len());
+        Ok(parts.map(|(images, _)| images).collect())
+    };
+    let mut parts = with_base_line(taken.parts.clone())?;
+    parts.sort_by_key(|part| Reverse(part.len()));
+    let all = |images: &[u32]| images.iter().map(|&image| names.of(image)).collect();
+    let known = &taken.frames.frames;
+    let of_global = global(&taken.global, taken.sees_point.clone(), known);
+    let of_global = with_base_line(of_global)?;
+    let global_model = |images: &Vec<u32>| {
+        let is_in = |image: &u32| images.binary_search(image).is_ok();
+        let parts = parts.iter().map(|part| part.iter().copied().filter(is_in));
+        let parts = parts.map(Iterator::collect::<Vec<u32>>);
+        GlobalModel {
+            images: all(images),
+            frames: frames(images),
+            parts: parts
+                .filter(|part| part.len() > 1)
+                .map(|part| all(&part))
+                .collect(),
+        }
+    };
+    Ok(Foreseen {
         simulated: true,
+        colmap: COLMAP,
         global: Global {
-            frames: frames(&one_model),
-            images: all(&one_model),
-            of: count as usize,
-            parts: parts.iter().map(|images| all(images)).collect(),
+            models: of_global.iter().map(global_model).collect(),
+            of: count,
         },
         incremental: Models {
-            refused,
+            refused: taken.refused,
             ..models(&found, &names, frames, thresholds)
         },
-    }))
+    })
 }
 
 fn models(
@@ -188,7 +255,7 @@ fn models(
         unfit: start.unfit.map(super::Unfit::name),
     };
     let mut outside = found.outside.clone();
-    outside.sort_by_key(|stop| (std::cmp::Reverse(stop.sees), stop.image));
+    outside.sort_by_key(|stop| (Reverse(stop.sees), stop.image));
     Models {
         models: found.models.iter().map(model).collect(),
         outside: outside.iter().map(sees).collect(),

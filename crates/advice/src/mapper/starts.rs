@@ -4,10 +4,11 @@
 //! is tried once at each strictness.
 
 use super::growth::Growth;
-use super::{Estimate, Geometry, Scene, Thresholds};
+use super::{Features, Geometry, Scene, Thresholds};
 use anyhow::Result;
 use std::cmp::Reverse;
 use std::collections::{HashMap, HashSet};
+use viewcert_formats::colmap::Estimate;
 
 /// A pair that was looked at to begin with.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,7 +17,7 @@ pub struct Start {
     pub images: (u32, u32),
     /// How many verified matches it has.
     pub inliers: u32,
-    /// How many points that count both see.
+    /// How many of these a third image is matched with.
     pub points: usize,
     /// What its relative pose says, where the database has one.
     pub estimate: Option<Estimate>,
@@ -117,6 +118,7 @@ impl Starts {
         &mut self,
         thresholds: &Thresholds,
         growth: &Growth,
+        features: &Features,
         geometry: &mut dyn Geometry,
         free: impl Fn(u32) -> bool,
     ) -> Result<Option<(u32, u32)>> {
@@ -139,7 +141,7 @@ impl Starts {
                 let mut start = Start {
                     images: pair,
                     inliers,
-                    points: growth.shared(pair),
+                    points: features.shared(pair),
                     estimate,
                     unfit: estimate.and_then(|estimate| unfit(&estimate, thresholds)),
                 };
@@ -173,9 +175,9 @@ impl Starts {
 
 /// What disqualifies a pair by its geometry.
 fn unfit(estimate: &Estimate, thresholds: &Thresholds) -> Option<Unfit> {
-    // Undefined, degenerate, watermark, several: COLMAP finds no pose; a rotation alone is one
-    // without an angle. What is undefined was not verified by COLMAP, which does it again.
-    if matches!(estimate.config, 1 | 5 | 7 | 8) {
+    // COLMAP estimates the pair anew from its inliers, whatever the database calls it. A rotation alone
+    // has no angle.
+    if estimate.config == 5 {
         return Some(Unfit::Configuration);
     }
     if estimate

@@ -1,14 +1,17 @@
-use super::growth::Growth;
 use super::*;
 use anyhow::Result;
 use std::collections::BTreeMap;
-use viewcert_formats::colmap::TwoViews;
+use viewcert_formats::colmap::Estimate;
 
 /// Tracks, and the pairs that have them in common.
 struct Sample {
     images: usize,
     tracks: Vec<Vec<u32>>,
     frames: Vec<Vec<u32>>,
+    /// Pairs of which 29 matches are left.
+    cut: Vec<(u32, u32)>,
+    /// Pairs of which none are.
+    unmatched: Vec<(u32, u32)>,
 }
 
 impl Sample {
@@ -17,6 +20,8 @@ impl Sample {
             images,
             tracks: Vec::new(),
             frames: Vec::new(),
+            cut: Vec::new(),
+            unmatched: Vec::new(),
         }
     }
 
@@ -27,25 +32,25 @@ impl Sample {
     }
 
     fn simulated(&self, geometry: &mut dyn Geometry) -> Incremental {
-        let images = self.images as u32;
-        let points = (images..).zip(&self.tracks);
-        let edges = points.flat_map(|(point, seen)| seen.iter().map(move |&v| (v, point)));
-        let nodes = images + self.tracks.len() as u32;
-        let graph = Graph::new(nodes, edges).unwrap();
-        let mut pairs: BTreeMap<(u32, u32), u32> = BTreeMap::new();
-        for seen in &self.tracks {
+        let mut matches: BTreeMap<(u32, u32), Vec<[(u32, u32); 2]>> = BTreeMap::new();
+        for (point, seen) in (0..).zip(&self.tracks) {
             for (k, &a) in seen.iter().enumerate() {
                 for &b in &seen[k + 1..] {
-                    *pairs.entry((a, b)).or_default() += 1;
+                    let matches = matches.entry((a, b)).or_default();
+                    matches.push([(a, point), (b, point)]);
                 }
             }
         }
-        let pairs: Vec<_> = pairs
-            .into_iter()
-            .filter(|&(_, count)| count >= 15)
-            .collect();
+        matches.retain(|pair, _| !self.unmatched.contains(pair));
+        for &pair in &self.cut {
+            matches.get_mut(&pair).unwrap().truncate(29);
+        }
+        matches.retain(|_, matches| matches.len() >= 15);
+        let pairs = matches.iter().map(|(&pair, of)| (pair, of.len() as u32));
+        let pairs: Vec<_> = pairs.collect();
+        let matches: Vec<_> = matches.into_values().flatten().collect();
         let scene = Scene {
-            tracks: &graph,
+            features: &Features::new(self.images, &matches),
             images: self.images,
             pairs: &pairs,
             frames: &self.frames,
@@ -202,75 +207,34 @@ fn nothing_is_made_in_one_place() {
     assert_eq!(sizes(&found), [4, 4]);
 }
 
+/// A match counts towards a beginning if a third image has the feature; a match twice counts once.
 #[test]
 fn shared_points_are_counted() {
-    let graph = Graph::new(8, [(0, 3), (0, 4), (0, 6), (1, 4), (1, 5), (1, 6), (1, 7)]).unwrap();
-    let scene = Scene {
-        tracks: &graph,
-        images: 3,
-        pairs: &[],
-        frames: &[],
-    };
-    let growth = Growth::new(scene, Default::default());
-    assert_eq!((growth.shared((0, 1)), growth.shared((0, 2))), (2, 0));
+    let of = |(a, b): (u32, u32), feature| [(a, feature), (b, feature)];
+    let matches = [
+        of((0, 1), 3),
+        of((0, 1), 3),
+        of((0, 1), 4),
+        of((0, 1), 5),
+        of((1, 2), 4),
+        of((0, 2), 5),
+    ];
+    let features = Features::new(3, &matches);
+    let shared = |pair| features.shared(pair);
+    assert_eq!((shared((0, 1)), shared((1, 2)), shared((0, 2))), (2, 1, 1));
 }
 
-/// A rotation of 30 degrees about the vertical axis, and a step aside: as a pose and as an essential
-/// matrix, which leaves it to the points which of four poses it is.
+/// Two groups whose images see the same 120 points. An image of one is matched with one of the other in 29 of
+/// them: it sees 29 points of the other group, however many lie on tracks that lead over.
 #[test]
-fn poses_of_essential_matrices() {
-    let (sine, cosine) = (30f64.to_radians().sin(), 30f64.to_radians().cos());
-    let rotation = [[cosine, 0.0, sine], [0.0, 1.0, 0.0], [-sine, 0.0, cosine]];
-    let t = [-3.0, 0.2, 0.6];
-    let across = [[0.0, -t[2], t[1]], [t[2], 0.0, -t[0]], [-t[1], t[0], 0.0]];
-    let product = |i: usize, j: usize| (0..3).map(|k| across[i][k] * rotation[k][j]).sum::<f64>();
-    let essential = [0, 1, 2].map(|i| [0, 1, 2].map(|j| product(i, j)));
-    let points = (0..9).map(|k| {
-        [
-            f64::from(k % 3) - 1.0,
-            f64::from(k / 3) - 1.0,
-            5.0 + f64::from(k) / 9.0,
-        ]
-    });
-    let mut angles = Vec::new();
-    let matches: Vec<_> = points
-        .map(|x| {
-            let y = [0, 1, 2].map(|i| (0..3).map(|k| rotation[i][k] * x[k]).sum::<f64>() + t[i]);
-            // The centre of the second camera is -R^T t.
-            let centre = [0, 1, 2].map(|i| -(0..3).map(|k| rotation[k][i] * t[k]).sum::<f64>());
-            let ray = [0, 1, 2].map(|k| x[k] - centre[k]);
-            let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-            let lengths = (dot(x, x) * dot(ray, ray)).sqrt();
-            angles.push((dot(x, ray) / lengths).acos().to_degrees());
-            [x, y]
-        })
-        .collect();
-    angles.sort_by(f64::total_cmp);
-    let forward = 0.6 / (9.0f64 + 0.04 + 0.36).sqrt();
-    let half = 15f64.to_radians();
-    let mut views = TwoViews {
-        essential: Some(essential.map(|row| row.map(|x| -2.5 * x))),
-        config: 2,
-        matches,
-        ..TwoViews::default()
-    };
-    let of_essential = estimate(&views);
-    views.pose = Some(([half.cos(), 0.0, half.sin(), 0.0], t));
-    for found in [of_essential, estimate(&views)] {
-        assert!(
-            (found.angle.unwrap() - angles[4]).abs() < 1e-9,
-            "{found:?} {angles:?}"
-        );
-        assert!((found.forward.unwrap() - forward).abs() < 1e-9, "{found:?}");
-        // The second camera stands at -R^T t, and sees the first at t.
-        let length = (9.0f64 + 0.04 + 0.36).sqrt();
-        let [first, second] = found.towards.unwrap();
-        for k in 0..3 {
-            let centre = -(0..3).map(|i| rotation[i][k] * t[i]).sum::<f64>();
-            assert!((first[k] - centre / length).abs() < 1e-9, "{found:?}");
-            assert!((second[k] - t[k] / length).abs() < 1e-9, "{found:?}");
-        }
-    }
-    // Nothing is known without a pose.
-    assert_eq!(estimate(&TwoViews::default()).angle, None);
+fn only_direct_matches_are_seen() {
+    let mut sample = Sample::new(6).seen(&[0, 1, 2, 3, 4, 5], 120);
+    let all = (0..6).flat_map(|a| (a + 1..6).map(move |b| (a, b)));
+    let across = all.filter(|&(a, b)| a < 3 && b >= 3);
+    (sample.cut, sample.unmatched) = across.partition(|&(a, b)| a + 3 == b);
+    let found = sample.simulated(&mut ());
+    assert_eq!(sizes(&found), [3, 3]);
+    assert_eq!(found.models[0].stop.map(|stop| stop.sees), Some(29));
+    sample.cut.clear();
+    assert_eq!(sizes(&sample.simulated(&mut ())), [6]);
 }

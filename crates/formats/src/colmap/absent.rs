@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{DatabaseError, FeatureTracks, TwoViews};
+use super::{DatabaseError, FeatureTracks, Groups, Pipeline, TwoViews};
 use crate::error::Place;
 use crate::{NamedGraph, ReadError, ReadOptions, TrackOptions};
 
@@ -45,6 +45,35 @@ impl Database {
     /// # Errors
     /// None.
     pub fn feature_tracks(&self) -> Result<FeatureTracks, ReadError> {
+        match *self {}
+    }
+
+    /// The graph of the tracks of global mapping.
+    ///
+    /// # Errors
+    /// None.
+    pub fn tracks_of_global(&self, _: TrackOptions) -> Result<Option<NamedGraph>, ReadError> {
+        match *self {}
+    }
+
+    /// The pairs that a mapper takes.
+    pub fn taken_by(&self, _: Pipeline) -> Vec<((u32, u32), u32)> {
+        match *self {}
+    }
+
+    /// The matches of incremental mapping.
+    ///
+    /// # Errors
+    /// None.
+    pub fn matches(&self) -> Result<Vec<[(u32, u32); 2]>, ReadError> {
+        match *self {}
+    }
+
+    /// The images of each part by the pairs that have a base line.
+    ///
+    /// # Errors
+    /// None.
+    pub fn by_base_lines(&self, _: &[Vec<u32>], _: &[Vec<u32>]) -> Result<Vec<Groups>, ReadError> {
         match *self {}
     }
 

@@ -4,8 +4,11 @@ use std::path::Path;
 
 use super::open::Opened;
 use super::pairs::{Tables, of_cameras};
-use super::{DatabaseError, DatabaseFacts, FeatureTracks, Views, positions, rigs, tracks};
-use crate::error::{Fault, Place};
+use super::{
+    DatabaseError, DatabaseFacts, Estimate, FeatureTracks, Groups, Pipeline, Views, estimate,
+};
+use super::{base_lines, positions, rigs, tracks};
+use crate::error::{Fault, Place, Problem};
 use crate::{Matching, NamedGraph, ReadAs, ReadError, ReadOptions, TrackOptions};
 use viewcert::graph::{Graph, Labels};
 use viewcert::wording::counted;
@@ -45,6 +48,9 @@ impl Database {
             let tables = Tables::read(&opened.connection, options)?;
             let (pairs, matching) = tables.graph()?;
             let positions = positions::read(&opened.connection, &tables.nodes)?;
+            let mut geometry = Geometry::new(&opened, &tables);
+            let without =
+                base_lines::note(&tables.pairs, tables.names.len(), |pair| geometry.of(pair))?;
             Ok(Self {
                 facts: tables.facts(
                     &opened.connection,
@@ -59,7 +65,7 @@ impl Database {
                 opened,
                 tables,
                 pairs,
-                notes,
+                notes: without.into_iter().chain(notes).collect(),
             })
         };
         read().map_err(|error| in_file(name, error))
@@ -88,6 +94,77 @@ impl Database {
         notes.extend(self.positions_not_used());
         notes.push(NOT_KNOWN.to_owned());
         Ok(self.finished(NamedGraph { notes, ..graph }, options.rigs))
+    }
+
+    /// The graph of the images and tracks of the pairs that global mapping takes, if these are others.
+    ///
+    /// # Errors
+    /// As of [`Self::tracks`].
+    pub fn tracks_of_global(&self, options: TrackOptions) -> Result<Option<NamedGraph>, ReadError> {
+        let taken = self.taken_by(Pipeline::Global);
+        let taken = taken.iter().map(|&(pair, _)| pair);
+        if taken.clone().eq(self.pairs.edges().iter().copied()) || taken.len() == 0 {
+            return Ok(None);
+        }
+        let input = |problem| Place::Input.fault(problem);
+        let read = || {
+            let opened = self.opened.wake();
+            opened.map_err(|error| input(error.into()))?;
+            let Tables {
+                names,
+                nodes,
+                table,
+                ..
+            } = &self.tables;
+            let pairs = Graph::new(names.len() as u32, taken)
+                .map_err(|error| input(Problem::Corrupt(error.to_string())))?;
+            let connection = &self.opened.connection;
+            tracks::read(connection, table, names, nodes, &pairs, None, options)
+        };
+        let graph = read().map_err(|fault: Fault| fault.in_file(&self.name))?;
+        Ok(Some(self.finished(graph, false)))
+    }
+
+    /// The pairs that a mapper of COLMAP 4.2 takes, with their inliers, increasing.
+    pub fn taken_by(&self, pipeline: Pipeline) -> Vec<((u32, u32), u32)> {
+        self.tables.taken_by(pipeline)
+    }
+
+    /// The matches of the pairs that incremental mapping takes: two images and a feature of each.
+    ///
+    /// # Errors
+    /// As of [`Self::tracks`].
+    pub fn matches(&self) -> Result<Vec<[(u32, u32); 2]>, ReadError> {
+        let read = || {
+            self.opened.wake()?;
+            let Tables {
+                names,
+                nodes,
+                table,
+                ..
+            } = &self.tables;
+            let taken = self.taken_by(Pipeline::Incremental);
+            let taken = taken.iter().map(|&(pair, _)| pair);
+            let pairs = Graph::new(names.len() as u32, taken);
+            let pairs = pairs.map_err(|error| Problem::Corrupt(error.to_string()))?;
+            tracks::matches(&self.opened.connection, table, names, nodes, &pairs)
+        };
+        read().map_err(|problem| Place::Input.fault(problem).in_file(&self.name))
+    }
+
+    /// The images of each part by the pairs that have a base line; images of a frame stay together.
+    ///
+    /// # Errors
+    /// See [`DatabaseError`].
+    pub fn by_base_lines(
+        &self,
+        parts: &[Vec<u32>],
+        frames: &[Vec<u32>],
+    ) -> Result<Vec<Groups>, ReadError> {
+        let mut geometry = Geometry::new(&self.opened, &self.tables);
+        let (pairs, images) = (&self.tables.pairs, self.tables.names.len());
+        let found = base_lines::groups(pairs, images, parts, frames, |pair| geometry.of(pair));
+        found.map_err(|error| in_file(&self.name, error))
     }
 
     fn camera_point_graph(&self, options: TrackOptions) -> Result<NamedGraph, Fault> {
@@ -148,15 +225,7 @@ impl Database {
     /// # Errors
     /// See [`DatabaseError`].
     pub fn views(&self) -> Result<Views<'_>, ReadError> {
-        let views = self.opened.wake().and_then(|()| {
-            let Tables { names, nodes, .. } = &self.tables;
-            Views::new(
-                &self.opened.connection,
-                self.tables.table,
-                names.len(),
-                nodes,
-            )
-        });
+        let views = views(&self.opened, &self.tables);
         views.map_err(|error| in_file(&self.name, error))
     }
 
@@ -203,6 +272,39 @@ impl Database {
                 counted(self.facts.positions, "image")
             )
         })
+    }
+}
+
+fn views<'a>(opened: &'a Opened, tables: &Tables) -> Result<Views<'a>, DatabaseError> {
+    opened.wake()?;
+    let images = tables.names.len();
+    Views::new(&opened.connection, tables.table, images, &tables.nodes)
+}
+
+/// What is known of single pairs; nothing is read before the first is asked for.
+struct Geometry<'a> {
+    opened: &'a Opened,
+    tables: &'a Tables,
+    views: Option<Views<'a>>,
+}
+
+impl<'a> Geometry<'a> {
+    fn new(opened: &'a Opened, tables: &'a Tables) -> Self {
+        Self {
+            opened,
+            tables,
+            views: None,
+        }
+    }
+
+    fn of(&mut self, (a, b): (u32, u32)) -> Result<Option<Estimate>, DatabaseError> {
+        if self.views.is_none() {
+            self.views = Some(views(self.opened, self.tables)?);
+        }
+        let Some(views) = &mut self.views else {
+            return Ok(None);
+        };
+        Ok(views.two(a, b)?.as_ref().map(estimate))
     }
 }
 

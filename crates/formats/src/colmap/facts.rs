@@ -67,6 +67,24 @@ pub struct Bin {
     pub pairs: usize,
 }
 
+/// The images of a part by the pairs that have a base line.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Groups {
+    /// The images that such pairs connect, larger groups first; one group, if that is all of the part.
+    pub groups: Vec<Vec<u32>>,
+    /// How many pairs lead from one group to another: they have no fundamental matrix.
+    pub pairs: usize,
+    /// What these are called, by their configurations.
+    pub configs: Vec<&'static str>,
+}
+
+impl Groups {
+    /// Whether base lines connect all images.
+    pub fn is_one(&self) -> bool {
+        self.groups.len() < 2
+    }
+}
+
 /// What COLMAP calls a configuration of two views (`TwoViewGeometry::ConfigurationType`).
 pub fn config_name(config: i64) -> &'static str {
     match config {

@@ -9,10 +9,13 @@
 #[cfg(not(feature = "databases"))]
 mod absent;
 #[cfg(feature = "databases")]
+mod base_lines;
+#[cfg(feature = "databases")]
 mod database;
 #[cfg(feature = "databases")]
 mod doubles;
 mod error;
+mod estimate;
 mod facts;
 #[cfg(feature = "databases")]
 mod focal;
@@ -41,7 +44,8 @@ pub use absent::{Database, Views};
 #[cfg(feature = "databases")]
 pub use database::Database;
 pub use error::DatabaseError;
-pub use facts::{Bin, ConfigCount, DatabaseFacts, config_name};
+pub use estimate::{Estimate, LEAST_ANGLE, estimate};
+pub use facts::{Bin, ConfigCount, DatabaseFacts, Groups, config_name};
 pub use two_views::TwoViews;
 #[cfg(feature = "databases")]
 pub use views::Views;

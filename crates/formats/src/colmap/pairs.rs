@@ -40,7 +40,19 @@ pub(super) struct Pair {
     pub(super) nodes: (u32, u32),
     pub(super) inliers: u32,
     pub(super) config: i64,
+    /// Whether a relative pose is stored; not asked where the configuration is enough for global mapping.
+    posed: bool,
     pub(super) used: bool,
+}
+
+impl Pair {
+    /// Whether a mapper takes the pair, whatever its inliers.
+    fn is_for(&self, pipeline: Pipeline) -> bool {
+        match pipeline {
+            Pipeline::Incremental => true,
+            Pipeline::Global => (2..=6).contains(&self.config) || self.posed,
+        }
+    }
 }
 
 impl Tables {
@@ -89,9 +101,12 @@ impl Tables {
         let present = columns(connection, self.table)?;
         let has = |column: &str| present.iter().any(|name| name == column);
         let config = if has("config") { "config" } else { "0" };
-        // Poses stand behind the matches, and only one pipeline asks for them.
-        let posed = self.pipeline == Pipeline::Global && has("qvec") && has("tvec");
-        let pose = if posed { "qvec, tvec" } else { "null, null" };
+        // Poses stand behind the matches: they are read of the few pairs that need one.
+        let pose = |column: &str| match has(column) {
+            true => format!("case when {config} between 2 and 6 then null else {column} end"),
+            false => "null".to_owned(),
+        };
+        let pose = format!("{}, {}", pose("qvec"), pose("tvec"));
         let table = self.table;
         let query = format!("select pair_id, rows, {config}, {pose} from {table}");
         let mut statement = connection.prepare(&query)?;
@@ -104,21 +119,36 @@ impl Tables {
                 continue;
             };
             let (a, b) = ends;
-            let used = self.meant[a as usize]
-                && self.meant[b as usize]
-                && inliers >= self.min_inliers
-                && match self.pipeline {
-                    Pipeline::Incremental => true,
-                    Pipeline::Global => (2..=6).contains(&config) || has_pose(row)?,
-                };
-            self.pairs.push(Pair {
+            let mut pair = Pair {
                 nodes: ends,
                 inliers,
                 config,
-                used,
-            });
+                posed: has_pose(row)?,
+                used: false,
+            };
+            pair.used = self.meant[a as usize]
+                && self.meant[b as usize]
+                && inliers >= self.min_inliers
+                && pair.is_for(self.pipeline);
+            self.pairs.push(pair);
         }
         Ok(())
+    }
+
+    /// The pairs that a mapper of COLMAP 4.2 takes, with their inliers, increasing: it leaves out those that
+    /// are undefined or degenerate.
+    pub(super) fn taken_by(&self, pipeline: Pipeline) -> Vec<((u32, u32), u32)> {
+        let taken = self.pairs.iter().filter(|pair| {
+            let (a, b) = pair.nodes;
+            self.meant[a as usize]
+                && self.meant[b as usize]
+                && pair.inliers >= self.min_inliers
+                && !matches!(pair.config, 0 | 1)
+                && pair.is_for(pipeline)
+        });
+        let mut taken: Vec<_> = taken.map(|pair| (pair.nodes, pair.inliers)).collect();
+        taken.sort_unstable();
+        taken
     }
 
     /// How many matches there were before verification, where the table says so.

@@ -35,8 +35,16 @@ pub(super) fn read(
     let input = |problem: Problem| Place::Input.fault(problem);
     let keypoints = Keypoints::new(connection, names, nodes, options.max_spread);
     let mut keypoints = keypoints.map_err(|error| input(error.into()))?;
-    let (joined, beyond) =
-        join(connection, table, names, nodes, pairs, &keypoints).map_err(input)?;
+    let mut joined = Joined::new(names.len());
+    let beyond = each_match(
+        (connection, table),
+        names,
+        nodes,
+        pairs,
+        &keypoints,
+        |a, b| joined.join(a, b),
+    );
+    let beyond = beyond.map_err(input)?;
     let mut graph = TrackGraph::new(names.to_vec(), options)?;
     graph.set_spread(options.max_spread);
     if let Some(frames) = frames {
@@ -71,7 +79,15 @@ pub(super) fn of_features(
     pairs: &Graph,
 ) -> Result<FeatureTracks, Problem> {
     let keypoints = Keypoints::new(connection, names, nodes, 0)?;
-    let (joined, _) = join(connection, table, names, nodes, pairs, &keypoints)?;
+    let mut joined = Joined::new(names.len());
+    each_match(
+        (connection, table),
+        names,
+        nodes,
+        pairs,
+        &keypoints,
+        |a, b| joined.join(a, b),
+    )?;
     let images = (0..).zip(names).zip(joined.of_features());
     let images = images.map(|((node, name), tracks)| {
         let features = keypoints.count(node);
@@ -80,16 +96,43 @@ pub(super) fn of_features(
     Ok(images.collect())
 }
 
-/// Reads the lists of all pairs that are used. Matches of features that their image does not have
-/// are left out, as COLMAP leaves them out (`CorrespondenceGraph::AddTwoViewGeometry`), and said.
-fn join(
+/// The matches of all pairs that are edges of `pairs`: two images and a feature of each.
+///
+/// # Errors
+/// As of [`read`].
+pub(super) fn matches(
     connection: &Connection,
     table: &str,
     names: &[Box<str>],
     nodes: &HashMap<i64, u32>,
     pairs: &Graph,
+) -> Result<Vec<[(u32, u32); 2]>, Problem> {
+    let keypoints = Keypoints::new(connection, names, nodes, 0)?;
+    let mut all = Vec::new();
+    each_match(
+        (connection, table),
+        names,
+        nodes,
+        pairs,
+        &keypoints,
+        |a, b| {
+            all.push([a, b]);
+            Ok(())
+        },
+    )?;
+    Ok(all)
+}
+
+/// Reads the lists of all pairs that are used. Matches of features that their image does not have
+/// are left out, as COLMAP leaves them out (`CorrespondenceGraph::AddTwoViewGeometry`), and said.
+fn each_match(
+    (connection, table): (&Connection, &str),
+    names: &[Box<str>],
+    nodes: &HashMap<i64, u32>,
+    pairs: &Graph,
     keypoints: &Keypoints,
-) -> Result<(Joined, Vec<String>), Problem> {
+    mut take: impl FnMut((u32, u32), (u32, u32)) -> Result<(), Problem>,
+) -> Result<Vec<String>, Problem> {
     let sql = |error: rusqlite::Error| Problem::from(DatabaseError::from(error));
     if !columns(connection, table)?
         .iter()
@@ -97,7 +140,6 @@ fn join(
     {
         return Err(DatabaseError::NoLists(pairs.edges().len()).into());
     }
-    let mut joined = Joined::new(names.len());
     let mut without = 0;
     let mut beyond = 0;
     let mut first_beyond = None;
@@ -147,9 +189,7 @@ fn join(
                 first_beyond.get_or_insert((first, second));
                 continue;
             }
-            joined
-                .join((first, a), (second, b))
-                .map_err(|problem| damaged(problem.to_string()))?;
+            take((first, a), (second, b)).map_err(|problem| damaged(problem.to_string()))?;
         }
     }
     if without > 0 {
@@ -173,5 +213,5 @@ fn join(
         };
         format!("{matches} in the list of a pair that has it already, and does not count again")
     });
-    Ok((joined, beyond.into_iter().chain(doubled).collect()))
+    Ok(beyond.into_iter().chain(doubled).collect())
 }
