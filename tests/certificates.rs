@@ -569,7 +569,7 @@ fn truncations_repetitions_and_other_graphs() {
     };
     let certificate = write("c.json", &text);
     let own = write("own.txt", "3 0\n2 3\n1 2\n# reordered\n0 1\n");
-    let other = write("other.txt", "3 0\n2 3\n1 2\n0 2\n");
+    let other = write("other.txt", "3 0\n2 3\n1 2\n0 2\n1 3\n");
     assert_eq!(verify(&["check", &certificate, &own]).code, 0);
     let run = verify(&["check", &certificate, &other]);
     assert_eq!(run.code, 1);

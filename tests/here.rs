@@ -17,7 +17,11 @@ struct Scene {
 impl Scene {
     fn new(pairs: &str, cameras: &str) -> Self {
         let folder = tempfile::tempdir().unwrap();
-        std::fs::write(folder.path().join("pairs.txt"), pairs).unwrap();
+        std::fs::write(
+            folder.path().join("pairs.txt"),
+            format!("# viewcert pairs\n{pairs}"),
+        )
+        .unwrap();
         std::fs::write(folder.path().join("cameras.txt"), cameras).unwrap();
         Self { folder }
     }

@@ -20,7 +20,11 @@ struct Scene {
 impl Scene {
     fn new(pairs: &str, classes: &str) -> Self {
         let folder = tempfile::tempdir().unwrap();
-        fs::write(folder.path().join("pairs.txt"), pairs).unwrap();
+        fs::write(
+            folder.path().join("pairs.txt"),
+            format!("# viewcert pairs\n{pairs}"),
+        )
+        .unwrap();
         fs::write(folder.path().join("classes.txt"), classes).unwrap();
         Self { folder }
     }

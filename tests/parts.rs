@@ -16,6 +16,8 @@ struct Files(tempfile::TempDir);
 impl Files {
     fn new(graph: &str, parts: &str) -> Self {
         let folder = tempfile::tempdir().unwrap();
+        // Small graphs look like tables, and this comment says that they are none.
+        let graph = format!("# viewcert pairs\n{graph}");
         fs::write(folder.path().join("graph.txt"), graph).unwrap();
         fs::write(folder.path().join("parts.txt"), given(parts)).unwrap();
         Self(folder)
@@ -138,7 +140,7 @@ fn parts_against_cliques() {
 #[test]
 fn answers_by_hand() {
     let files = Files::new(&cycle(4), "0 1 a\n1 2 b\nc 2 3\n0 3 d\n");
-    let graph = format!("{}a a2\nb b2\nc c2\nd d2\n", cycle(4));
+    let graph = format!("# viewcert pairs\n{}a a2\nb b2\nc c2\nd d2\n", cycle(4));
     fs::write(files.path("graph.txt"), graph).unwrap();
     // Each rig has one camera that hangs on it alone, by a pair: 11 (8 + 4) - 15, less 4 for each.
     for (model, code, rank, components) in [

@@ -159,9 +159,9 @@ def test_the_report_and_the_picture(program: Program, tmp_path: pathlib.Path) ->
     "text",
     [
         "0 1\n1 2\n2 0\n",
-        "7 100\n100 2000\n2000 7\n2000 9\n",
+        "7 100\n100 2000\n2000 7\n2000 9\n9 7\n",
         "b.jpg a.jpg\nc.jpg b.jpg\na.jpg c.jpg\nz.jpg a.jpg\n",
-        "left right\nRight left\n10 left\n",
+        "left right\nRight left\nten left\n",
     ],
 )
 def test_pairs_in_memory_are_numbered_as_in_a_file(

@@ -481,7 +481,7 @@ fn words(text: &str, whole: bool) -> Option<Problem> {
         return Some(foreign("a file of feature matches (OpenMVG)", TRACKS));
     }
     if whole
-        && lines.len() > 1
+        && lines.len() > 2
         && lines
             .iter()
             .all(|line| line.len() == lines.len() && line.iter().all(number))

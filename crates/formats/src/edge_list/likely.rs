@@ -171,7 +171,7 @@ impl List<'_> {
     }
 
     /// Columns with hardly a number in common, as of cameras and points, or pairs with hardly a number in
-    /// common; stars and the like are numbered one after the other.
+    /// common; lists of graphs that are in order, and have no gaps, are such, too.
     fn columns_apart(&self, pairs: &[(u32, u32)]) -> Option<Refusal> {
         let column = |end: fn(&(u32, u32)) -> u32| -> HashSet<u64> {
             pairs.iter().map(|pair| self.integer(end(pair))).collect()
@@ -181,10 +181,10 @@ impl List<'_> {
         let shared = firsts.intersection(&seconds).count();
         let ends = |of: &HashSet<u64>| Some((*of.iter().min()?, *of.iter().max()?));
         let ((low, first), (second, high)) = (ends(&firsts)?, ends(&seconds)?);
-        let in_order = first < second
-            && low <= 1
-            && high.saturating_sub(low) == all as u64 - 1
-            && self.width < 9;
+        let without_gaps =
+            low.min(second) <= 1 && first.max(high) - low.min(second) == all as u64 - 1;
+        let is_rising = |&(a, b): &(u32, u32)| self.integer(a) < self.integer(b);
+        let in_order = without_gaps && self.width < 9 && pairs.iter().all(is_rising);
         if 4 * shared < all && !in_order {
             return Some(Refusal::table(
                 "the two columns have hardly a number in common",
