@@ -330,18 +330,6 @@ impl Told {
         Ok(())
     }
 
-    /// Says how many units of work there are, before the first is done.
-    pub(crate) fn expects(&self, what: &str, total: u64) {
-        let news = News {
-            what: what.to_owned(),
-            done: 0,
-            total,
-        };
-        let mut state = unpoisoned(&self.0);
-        state.remember(news.clone());
-        state.works.push((0, news));
-    }
-
     /// Work of which so many units are done, told by whoever counts them.
     pub(crate) fn counted(&self, what: &str, more: u64) {
         let mut state = unpoisoned(&self.0);
