@@ -71,8 +71,14 @@ fn triangle(mut matrix: Columns) -> Columns {
     matrix
 }
 
-/// Rotates two columns until they are orthogonal, and those of `vectors` alike; whether they were not yet.
-fn rotate(matrix: &mut Columns, vectors: &mut Columns, (p, q): (usize, usize)) -> bool {
+/// Rotates two columns until they are orthogonal, and those of `vectors` alike; whether they were not yet. Columns no
+/// longer than `noise` are what rounding leaves of zero.
+fn rotate(
+    matrix: &mut Columns,
+    vectors: &mut Columns,
+    (p, q): (usize, usize),
+    (rounding, noise): (f64, f64),
+) -> bool {
     let turn = |columns: &mut Columns, cos: f64, sin: f64| {
         let (head, tail) = columns.split_at_mut(q);
         for (x, y) in head[p].iter_mut().zip(&mut tail[0]) {
@@ -81,9 +87,7 @@ fn rotate(matrix: &mut Columns, vectors: &mut Columns, (p, q): (usize, usize)) -
     };
     let (a, b) = (dot(&matrix[p], &matrix[p]), dot(&matrix[q], &matrix[q]));
     let c = dot(&matrix[p], &matrix[q]);
-    // What rounding leaves of the product of two orthogonal columns.
-    let rounding = 4.0 * f64::EPSILON * (matrix[p].len() as f64).sqrt();
-    if c.abs() <= rounding * (a * b).sqrt() {
+    if c.abs() <= rounding * (a * b).sqrt() || a.min(b) <= noise * noise {
         return false;
     }
     let zeta = (b - a) / (2.0 * c);
@@ -109,10 +113,13 @@ pub fn singular(matrix: Columns, with_vectors: bool) -> Result<(Vec<f64>, Column
         true => identity(n),
         false => Vec::new(),
     };
+    let rows = matrix.iter().map(Vec::len).max().unwrap_or(0);
+    let rounding = 4.0 * f64::EPSILON * (rows as f64).sqrt();
+    let noise = rounding * matrix.iter().map(|column| norm(column)).fold(0.0, f64::max);
     let mut sweeps = 0;
     while (0..n).rev().fold(false, |moved, q| {
         (0..q).fold(moved, |moved, p| {
-            rotate(&mut matrix, &mut vectors, (p, q)) | moved
+            rotate(&mut matrix, &mut vectors, (p, q), (rounding, noise)) | moved
         })
     }) {
         sweeps += 1;
@@ -272,6 +279,9 @@ mod tests {
         let (values, vectors) = singular(vec![vec![1.0; 2]; 3], true).unwrap();
         assert!((values[0] - 6f64.sqrt()).abs() < 1e-14 && values[1] < 1e-14);
         assert!(vectors[2].iter().sum::<f64>().abs() < 1e-14);
+        // Columns in one dimension are never orthogonal.
+        let (values, _) = singular(vec![vec![-5.25], vec![0.7], vec![0.3]], true).unwrap();
+        assert!(values[0] > 5.25 && values[1] < 1e-14);
         let least = least_eigenvalue(vec![vec![0.0, 1.0], vec![1.0, 0.0]]).unwrap();
         assert!((least + 1.0).abs() < 1e-15);
         assert!(singular(vec![vec![f64::NAN]], false).is_err());
