@@ -335,8 +335,9 @@ fn a_disagreement_is_explained() {
 
 /// The paper's Table 3: both methods' numbers of components, and the sizes.
 #[test]
+#[ignore = "needs data"]
 fn table_3_is_confirmed() {
-    let Some(data) = data() else { return };
+    let data = data();
     let table = data.join("table3.csv");
     let graphs = data.join("table3");
     let run = verify(&[

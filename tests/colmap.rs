@@ -6,23 +6,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::common::schema::keeps_to;
-use crate::common::{Run, verify, verify_with};
+use crate::common::{Run, samples, verify, verify_with};
 use rusqlite::{Connection, params};
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
-
-/// The folder with the samples, which is not part of the repository.
-fn samples() -> Option<PathBuf> {
-    let folder = crate::common::data()?.join("colmap");
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    eprintln!(
-        "SKIPPED: the samples of databases are not at {}",
-        folder.display()
-    );
-    None
-}
 
 /// What is known of the samples, by path; computed with networkx and another program.
 fn facts(folder: &Path) -> Vec<(PathBuf, Value)> {
@@ -104,8 +91,9 @@ fn fingerprint(folder: &Path) -> BTreeMap<PathBuf, (u64, String)> {
 }
 
 #[test]
+#[ignore = "needs samples"]
 fn pairs_are_as_the_facts_say() {
-    let Some(folder) = samples() else { return };
+    let folder = samples();
     let mut decided = 0;
     for (path, fact) in facts(&folder) {
         for model in ["projective", "calibrated"] {
@@ -150,8 +138,9 @@ fn pairs_are_as_the_facts_say() {
 
 /// None of the samples has a pose at a pair of another configuration than 2 to 6.
 #[test]
+#[ignore = "needs samples"]
 fn global_mapping_takes_its_configurations() {
-    let Some(folder) = samples() else { return };
+    let folder = samples();
     for (path, fact) in facts(&folder) {
         if fact.get("projective").is_none() {
             continue;
@@ -170,8 +159,9 @@ fn global_mapping_takes_its_configurations() {
 }
 
 #[test]
+#[ignore = "needs samples"]
 fn tracks_are_as_the_facts_say() {
-    let Some(folder) = samples() else { return };
+    let folder = samples();
     let mut decided = 0;
     for (path, fact) in facts(&folder) {
         for (name, least) in [("tracks_ge2", "2"), ("tracks_ge3", "3")] {
@@ -210,8 +200,9 @@ fn tracks_are_as_the_facts_say() {
 }
 
 #[test]
+#[ignore = "needs samples"]
 fn what_is_wrong_with_a_sample_is_said() {
-    let Some(folder) = samples() else { return };
+    let folder = samples();
     for (name, phrases) in [
         ("empty", ["the database has no images", "feature_extractor"]),
         (
@@ -255,8 +246,9 @@ fn what_is_wrong_with_a_sample_is_said() {
 
 /// Blanks, quotes and other scripts: listed as they are, bytewise in order.
 #[test]
+#[ignore = "needs samples"]
 fn names_are_those_of_the_images() {
-    let Some(folder) = samples() else { return };
+    let folder = samples();
     let path = folder.join("names.db");
     let line = json_of(&path, &["--components"]);
     let labels: Vec<String> =
@@ -276,8 +268,9 @@ fn names_are_those_of_the_images() {
 }
 
 #[test]
+#[ignore = "needs samples"]
 fn the_samples_stay_as_they_are() {
-    let Some(folder) = samples() else { return };
+    let folder = samples();
     let before = fingerprint(&folder);
     let files: Vec<&Path> = before.keys().map(PathBuf::as_path).collect();
     let databases = files
@@ -293,9 +286,10 @@ fn the_samples_stay_as_they_are() {
 
 /// A file system that cannot be written to.
 #[test]
+#[ignore = "needs samples and root"]
 #[cfg(target_os = "linux")]
 fn a_read_only_file_system() {
-    let Some(folder) = samples() else { return };
+    let folder = samples();
     let prepare = |place: &Path| {
         fs::create_dir(place.join("wal")).unwrap();
         for name in [
@@ -762,8 +756,9 @@ const VIEWS: [&[u32]; 4] = [&[0, 1, 2], &[0, 1, 2], &[2, 1, 0], &[0, 2]];
 /// What COLMAP 4.2's global mapper itself says of six databases (`Established .. tracks`, `Kept ..
 /// tracks, discarded .. due to inconsistency`; rotation averaging told to drop no pair).
 #[test]
+#[ignore = "needs samples"]
 fn tracks_are_those_that_global_mapping_keeps() {
-    let Some(folder) = samples() else { return };
+    let folder = samples();
     for (name, established, kept, discarded, merged) in [
         ("dup_false_alarm", 300, 300, 0, 80),
         ("photos_lund", 6484, 2149, 31, 40),
@@ -1103,6 +1098,7 @@ fn line_of_input(bytes: &[u8]) -> Value {
 /// What is decided can be handed on: both checkers take the certificate with what was converted, the
 /// program with the file that it came from as well, and all refuse another.
 #[test]
+#[ignore = "needs python3"]
 fn certificates_of_camera_point_graphs() {
     let folder = tempfile::tempdir().unwrap();
     let [input, certificate, graph] =
@@ -1173,6 +1169,7 @@ fn stereo(place: Option<[f64; 3]>) -> Made {
 const OF_TWO: [&str; 3] = ["--tracks", "--min-views", "2"];
 
 #[test]
+#[ignore = "needs python3"]
 fn rigs_hold_parts_together() {
     let made = stereo(Some([0.5, 0.0, 0.0]));
     let path = made.path();
@@ -1440,6 +1437,7 @@ fn frames_share_base_lines_that_are_not_known() {
 
 /// The certificate states the frames and what they add, and both checkers ask for them.
 #[test]
+#[ignore = "needs python3"]
 fn certificates_state_unknown_base_lines() {
     for (frames, code, says) in [
         (
@@ -1491,8 +1489,9 @@ fn certificates_state_unknown_base_lines() {
 
 /// What incremental mapping gets right to 2e-3 was called two parts of ten images each.
 #[test]
+#[ignore = "needs samples"]
 fn a_rig_joins_what_it_joins_for_mappers() {
-    let Some(folder) = samples() else { return };
+    let folder = samples();
     let path = folder.join("rig_false_alarm.db");
     let line = json_of(&path, &["--tracks"]);
     assert_eq!(line["verdict"], "solvable", "{line}");
@@ -1561,6 +1560,7 @@ fn with_priors(priors: [([f64; 3], i64); 4]) -> Made {
 
 /// Positions of pose priors count where they are asked for and nowhere else, and certificates state them.
 #[test]
+#[ignore = "needs python3"]
 fn pose_priors_are_positions_that_are_asked_for() {
     let places = [
         [47.0, 8.0, 400.0],
@@ -1720,8 +1720,9 @@ fn pose_priors_that_say_less() {
 
 /// Photographs with GPS: their positions settle the scale.
 #[test]
+#[ignore = "needs samples"]
 fn positions_of_photographs() {
-    let Some(folder) = samples() else { return };
+    let folder = samples();
     let path = folder.join("photos_monstree.db");
     let free = json_of(&path, &["--tracks"]);
     let line = json_of(&path, &["--tracks", "--given", text(&path)]);

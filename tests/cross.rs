@@ -194,12 +194,11 @@ fn plane_flow_identity_on_random_graphs() {
 }
 
 #[test]
+#[ignore = "needs geng"]
 fn plane_flow_identity_on_the_candidates_of_table_1() {
     let field = PrimeField::mersenne61();
     for (nodes, edges, candidates, _) in TABLE_1.into_iter().take(7) {
-        let Some(graphs) = geng(nodes, edges) else {
-            return;
-        };
+        let graphs = geng(nodes, edges);
         assert_eq!(graphs.lines().count(), candidates);
         for line in graphs.lines() {
             identity_holds(&field, &graph6::decode(line.as_bytes()).unwrap());

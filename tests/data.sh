@@ -3,7 +3,7 @@
 # synthetic ones. They belong to their authors, who state no licence, so they are not part of this
 # repository. Needs git; verifies every file by its SHA-256.
 #
-#     tests/data.sh FOLDER && VIEWCERT_DATA=FOLDER cargo test --workspace
+#     tests/data.sh FOLDER && VIEWCERT_DATA=FOLDER cargo test --workspace -- --ignored table_3
 #
 # The tests also read table1.csv, table2.csv and table3.csv there: the paper's printed tables,
 # one line per row, behind the heads

@@ -30,6 +30,7 @@ fn at(pairs: &str, cameras: &str, model: &str, more: &[&str]) -> (i32, Value) {
 }
 
 #[test]
+#[ignore = "needs python3"]
 fn known_configurations_are_degenerate() {
     let folder = tempfile::tempdir().unwrap();
     let certificate = folder.path().join("here.json").display().to_string();

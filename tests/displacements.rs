@@ -315,6 +315,7 @@ fn what_knows_nothing_of_displacements_refuses_by_name() {
 /// Certificates are verified by both checkers, for the displacements that were supposed and no
 /// others.
 #[test]
+#[ignore = "needs python3"]
 fn certificates_and_both_checkers() {
     let graphs = [
         (cycle(4), "0 1\n2 3\n"),

@@ -1,6 +1,6 @@
 //! Classes of cameras through the real binary.
 
-use crate::common::{Run, verify, verify_with};
+use crate::common::{Run, samples, verify, verify_with};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -154,13 +154,11 @@ fn images_of_one_sensor_calibrate_it() {
 }
 
 #[test]
+#[ignore = "needs samples"]
 fn databases_know_which_camera_took_an_image() {
-    let Some(data) = crate::common::data() else {
-        return;
-    };
     let folder = tempfile::tempdir().unwrap();
     let copy = folder.path().join("banana.db");
-    fs::copy(data.join("colmap/photos_banana.db"), &copy).unwrap();
+    fs::copy(samples().join("photos_banana.db"), &copy).unwrap();
     let run = verify(&[copy.to_str().unwrap(), "--json", "--intrinsics", "free"]);
     let found = intrinsics(&run);
     // 16 images with one camera_id.
@@ -178,11 +176,9 @@ fn databases_know_which_camera_took_an_image() {
 }
 
 #[test]
+#[ignore = "needs samples"]
 fn databases_know_their_focal_lengths() {
-    let Some(data) = crate::common::data() else {
-        return;
-    };
-    let database = data.join("colmap/photos_lund.db");
+    let database = samples().join("photos_lund.db");
     let folder = tempfile::tempdir().unwrap();
     let copy = folder.path().join("lund.db");
     fs::copy(&database, &copy).unwrap();

@@ -1,7 +1,7 @@
 //! Certificates of intrinsics, through the real binary and both checkers.
 
 use crate::common::{
-    TABLE_1, data, first_checker, geng, run_with, second_checker, verify, verify_with,
+    TABLE_1, data, first_checker, geng, run_with, samples, second_checker, verify, verify_with,
 };
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -161,6 +161,7 @@ fn random_sensors(random: &mut ChaCha8Rng) -> Scene {
 }
 
 #[test]
+#[ignore = "needs python3"]
 fn random_mixtures_of_sensors() {
     let mut random = ChaCha8Rng::seed_from_u64(16);
     let (mut lines, mut metric, mut partly, mut shared, mut rows) = (String::new(), 0, 0, 0, 0);
@@ -188,6 +189,7 @@ fn random_mixtures_of_sensors() {
 }
 
 #[test]
+#[ignore = "needs python3"]
 fn random_mixtures() {
     let mut random = ChaCha8Rng::seed_from_u64(15);
     let (mut lines, mut metric, mut partly, mut rows) = (String::new(), 0, 0, 0);
@@ -213,19 +215,18 @@ fn random_mixtures() {
 /// All known is the calibrated model, nothing known the projective one: all real graphs of the paper, and all
 /// candidates of Table 1 with up to 8 nodes.
 #[test]
+#[ignore = "needs data, geng and python3"]
 fn the_two_ends_of_published_graphs() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name).display().to_string();
     let mut graphs = Vec::new();
-    if let Some(data) = data() {
-        for part in ["table3", "synthetic"] {
-            let files = fs::read_dir(data.join(part)).unwrap();
-            graphs.extend(files.map(|file| file.unwrap().path().display().to_string()));
-        }
-        assert_eq!(graphs.len(), 34);
+    for part in ["table3", "synthetic"] {
+        let files = fs::read_dir(data().join(part)).unwrap();
+        graphs.extend(files.map(|file| file.unwrap().path().display().to_string()));
     }
+    assert_eq!(graphs.len(), 34);
     for (row, &(nodes, edges, ..)) in TABLE_1.iter().enumerate().take(6) {
-        for (k, line) in geng(nodes, edges).unwrap_or_default().lines().enumerate() {
+        for (k, line) in geng(nodes, edges).lines().enumerate() {
             let file = path(&format!("{row}-{k}.g6"));
             fs::write(&file, format!("{line}\n")).unwrap();
             graphs.push(file);
@@ -278,6 +279,7 @@ fn plain(graph: &str, folder: &Path) -> String {
 }
 
 #[test]
+#[ignore = "needs python3"]
 fn classes_that_are_expected() {
     let scene = Scene::new("a b\na c\nb c\nc d\n", "known a b\nfocal d\n");
     let (report, _) = scene.decided();
@@ -355,6 +357,7 @@ fn classes_that_are_expected() {
 }
 
 #[test]
+#[ignore = "needs python3"]
 fn sensors_that_are_expected() {
     let scene = Scene::new("a b\na c\nb c\n", "shared unknown a b c\n");
     let (report, certificate) = scene.decided();
@@ -429,14 +432,12 @@ fn graphs_without_pairs_have_no_certificate() {
 }
 
 #[test]
+#[ignore = "needs samples and python3"]
 fn databases() {
-    let Some(data) = data() else {
-        return;
-    };
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name).display().to_string();
     let (database, certificate) = (path("lund.db"), path("c.json"));
-    fs::copy(data.join("colmap/photos_lund.db"), &database).unwrap();
+    fs::copy(samples().join("photos_lund.db"), &database).unwrap();
     let run = verify(&[&database, "--certificate", &certificate, "--intrinsics"]);
     assert_eq!(run.code, 0, "{}{}", run.out, run.err);
     for (more, code) in [
@@ -452,14 +453,12 @@ fn databases() {
 }
 
 #[test]
+#[ignore = "needs samples and python3"]
 fn databases_with_images_of_one_camera() {
-    let Some(data) = data() else {
-        return;
-    };
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name).display().to_string();
     let (database, certificate) = (path("banana.db"), path("c.json"));
-    fs::copy(data.join("colmap/photos_banana.db"), &database).unwrap();
+    fs::copy(samples().join("photos_banana.db"), &database).unwrap();
     let run = verify(&[
         &database,
         "--certificate",

@@ -1,23 +1,10 @@
 //! `verify overview` against what is known of the samples, and the schema of all JSON lines.
 
 use crate::common::schema::{mutilations_are_refused, schema, valid};
-use crate::common::{data, verify, verify_with};
+use crate::common::{samples, verify, verify_with};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-
-/// The folder with the samples of databases, which is not part of the repository.
-fn samples() -> Option<PathBuf> {
-    let folder = data()?.join("colmap");
-    if !folder.is_dir() {
-        crate::common::absent(&format!(
-            "no samples of databases are at {}",
-            folder.display()
-        ));
-        return None;
-    }
-    Some(folder)
-}
 
 /// Two groups of four images, all pairs in each, and a pair between them.
 const TWO: &str = "a b\na c\na d\nb c\nb d\nc d\ne f\ne g\ne h\nf g\nf h\ng h\na e\n";
@@ -87,8 +74,9 @@ fn every_option_keeps_to_the_schema() {
 }
 
 #[test]
+#[ignore = "needs samples"]
 fn databases_keep_to_the_schema() {
-    let Some(folder) = samples() else { return };
+    let folder = samples();
     let schema = schema();
     let mut count = 0;
     let entries = std::fs::read_dir(&folder).unwrap();
@@ -159,8 +147,9 @@ type Sample = (&'static str, &'static [u64], &'static [u64], &'static [u64]);
 /// What FACTS.md says, found with other programs: images of the components in the projective and in
 /// the calibrated model, cameras of those of tracks in three images and more.
 #[test]
+#[ignore = "needs samples"]
 fn samples_are_as_the_facts_say() {
-    let Some(folder) = samples() else { return };
+    let folder = samples();
     let cases: [Sample; 5] = [
         ("clusters_one_edge_private", &[6, 6, 2], &[6, 6, 2], &[6, 6]),
         ("clusters_one_edge_tracks", &[6, 6, 2], &[6, 6, 2], &[12]),
@@ -309,8 +298,9 @@ fn overviewed(path: &Path) -> (u64, u64) {
 /// The overview reads every database twice, and leaves all as it is; changes that are in the log
 /// alone are seen both times.
 #[test]
+#[ignore = "needs samples"]
 fn the_samples_stay_as_they_are() {
-    let Some(folder) = samples() else { return };
+    let folder = samples();
     let before = contents(&folder);
     let databases = before
         .keys()
@@ -328,9 +318,10 @@ fn the_samples_stay_as_they_are() {
 }
 
 #[test]
+#[ignore = "needs samples and root"]
 #[cfg(target_os = "linux")]
 fn a_read_only_file_system() {
-    let Some(folder) = samples() else { return };
+    let folder = samples();
     let prepare = |place: &Path| {
         std::fs::create_dir(place.join("wal")).unwrap();
         for name in ["names.db", "wal/copy.db", "wal/copy.db-wal"] {
@@ -345,8 +336,9 @@ fn a_read_only_file_system() {
 
 /// Another program has the database open and has written to its log; it goes on writing.
 #[test]
+#[ignore = "needs samples"]
 fn a_database_that_is_open_elsewhere() {
-    let Some(folder) = samples() else { return };
+    let folder = samples();
     let place = tempfile::tempdir().unwrap();
     let path = place.path().join("names.db");
     std::fs::copy(folder.join("names.db"), &path).unwrap();
@@ -388,8 +380,9 @@ fn a_database_that_is_open_elsewhere() {
 /// What is suggested for the tracks of a sample: one observation each way, proved; the pair has
 /// matches already.
 #[test]
+#[ignore = "needs samples"]
 fn tracks_of_samples_have_suggestions() {
-    let Some(folder) = samples() else { return };
+    let folder = samples();
     let schema = schema();
     let suggested = |name: &str| {
         let path = folder.join(name);
@@ -454,8 +447,9 @@ fn tracks_of_samples_have_suggestions() {
 
 /// The commands for an export name the database that was read, for pairs and for tracks.
 #[test]
+#[ignore = "needs samples"]
 fn commands_name_the_database() {
-    let Some(folder) = samples() else { return };
+    let folder = samples();
     let place = tempfile::tempdir().unwrap();
     let out = place.path().join("out");
     let path = folder.join("clusters_nothing.db");
@@ -475,10 +469,9 @@ fn commands_name_the_database() {
 /// What a database knows of its cameras: of pairs between cameras with known or unknown focal lengths the
 /// calibrated verdict decides (theory, Corollary 17.10), and images without pairs are not determined.
 #[test]
+#[ignore = "needs samples"]
 fn an_overview_says_which_intrinsics_are_determined() {
-    let Some(samples) = samples() else {
-        return;
-    };
+    let samples = samples();
     let folder = tempfile::tempdir().unwrap();
     let mut metric = 0;
     for name in [

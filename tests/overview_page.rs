@@ -1,7 +1,7 @@
 //! `verify overview --html`, and the page of `verify split`, in a real browser without a window.
 
 use crate::common::browser::Browser;
-use crate::common::{data, verify, verify_with};
+use crate::common::{samples, verify, verify_with};
 use std::fs;
 use std::path::Path;
 
@@ -29,13 +29,10 @@ fn count(text: &str, what: &str) -> usize {
 /// All that the screen says is on the page, with the images of every part, dashed lines where tracks
 /// are too short, and dotted ones for suggestions.
 #[test]
+#[ignore = "needs samples and chromium"]
 fn the_page_says_what_the_screen_says() {
-    let Some(colmap) = data().map(|data| data.join("colmap")) else {
-        return;
-    };
-    let Some(browser) = Browser::find() else {
-        return;
-    };
+    let colmap = samples();
+    let browser = Browser::find();
     let folder = tempfile::tempdir().unwrap();
     let page = folder.path().join("page.html");
     let database = colmap.join("clusters_three_edges.db");
@@ -94,13 +91,10 @@ fn the_page_says_what_the_screen_says() {
 
 /// Pages of sets with and without parts, of pairs alone, and of what is no database.
 #[test]
+#[ignore = "needs samples and chromium"]
 fn every_kind_of_input_has_a_page() {
-    let Some(colmap) = data().map(|data| data.join("colmap")) else {
-        return;
-    };
-    let Some(browser) = Browser::find() else {
-        return;
-    };
+    let colmap = samples();
+    let browser = Browser::find();
     let folder = tempfile::tempdir().unwrap();
     let page = folder.path().join("page.html");
     for name in [

@@ -330,6 +330,7 @@ fn first(arguments: &[&str]) -> Option<i32> {
 /// Certificates of every model, for a graph with names: both checkers, and the program in the names
 /// of the graph, want the same parts.
 #[test]
+#[ignore = "needs python3"]
 fn certificates_are_about_graph_and_parts() {
     let graph = "a b\nb c\n\"c d\" a\ne f\ng h\n";
     let files = Files::new(graph, "a b e\nb c f\nc \"c d\" g\nh a \"c d\"\n");
@@ -405,6 +406,7 @@ fn certificates_are_about_graph_and_parts() {
 /// Parts in place of three edges of a graph with nine nodes and two solutions (Arrigoni, Kohn,
 /// Fusiello, Pajdla): evidence for their number rests on parts as on pairs.
 #[test]
+#[ignore = "needs python3"]
 fn solutions_with_parts() {
     let graph = viewcert::graph::graph6::decode(b"HBQkcP_").unwrap();
     let line = |(_, &(i, j)): (usize, &(u32, u32))| format!("{i} {j}\n");
@@ -430,6 +432,7 @@ fn solutions_with_parts() {
 /// A grid, of which regions have full rank: a known part in it is merged with these, and both
 /// checkers count it in.
 #[test]
+#[ignore = "needs python3"]
 fn bodies_by_rank_with_parts() {
     let node = |row: u32, column: u32| 17 * row + column;
     let cells = (0..17).flat_map(|row| (0..17).map(move |column| (row, column)));

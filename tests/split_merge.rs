@@ -1,7 +1,7 @@
 //! `verify split`, `verify merge` and `verify lists` through the binary.
 
 use crate::common::schema::keeps_to;
-use crate::common::{Run, data, verify};
+use crate::common::{Run, samples, verify};
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::fs;
@@ -411,10 +411,9 @@ fn named_model(folder: &Path, images: &[String]) {
 /// The parts of databases with two clusters, as models: what tracks between them fix, and what to
 /// match where they do not.
 #[test]
+#[ignore = "needs samples"]
 fn a_database_says_what_joins_two_models() {
-    let Some(colmap) = data().map(|data| data.join("colmap")) else {
-        return;
-    };
+    let colmap = samples();
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
     let mut seen = 0;
@@ -565,10 +564,9 @@ fn lists_are_whole_and_overlap() {
 
 /// Of a database each list is decided by the tracks of its own pairs.
 #[test]
+#[ignore = "needs samples"]
 fn lists_of_a_database_have_tracks_of_their_own() {
-    let Some(colmap) = data().map(|data| data.join("colmap")) else {
-        return;
-    };
+    let colmap = samples();
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
     let database = colmap.join("photos_lund.db");

@@ -94,8 +94,9 @@ fn what_does_not_go_with_a_table() {
 
 /// The paper's Table 3 in one command: sizes, densities and components are the published ones.
 #[test]
+#[ignore = "needs data"]
 fn table_3() {
-    let Some(data) = data() else { return };
+    let data = data();
     let table = std::fs::File::open(data.join("table3.csv")).unwrap();
     let mut published = csv::Reader::from_reader(table);
     let rows: Vec<csv::StringRecord> = published.records().map(Result::unwrap).collect();

@@ -20,9 +20,7 @@ const CENSUS: [(u64, [u64; 4], u64); 4] = [
 #[test]
 fn census_of_connected_graphs() {
     let sizes = 5..=8;
-    let Some(lines) = sizes.map(geng_connected).collect::<Option<Vec<String>>>() else {
-        return;
-    };
+    let lines: Vec<String> = sizes.map(geng_connected).collect();
     let run = workshop(lines.concat().as_bytes(), &["census", "-", "--json"]);
     assert_eq!(run.code, 0, "{}", run.err);
     let rows = run.json();
@@ -77,6 +75,7 @@ fn sums(table: &str) -> Vec<(u64, [u64; 4])> {
 
 /// The table in the repository, and one that is made now: a folder that the checker accepts.
 #[test]
+#[ignore = "needs geng"]
 fn published_census() {
     let published = include_str!("../../certificates/census.tsv");
     let published = sums(published);
@@ -88,9 +87,7 @@ fn published_census() {
         published.last(),
         Some(&(9, [261_080, 180_878, 185_927, 193_352]))
     );
-    let Some(lines) = geng_connected(5) else {
-        return;
-    };
+    let lines = geng_connected(5);
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().to_str().unwrap();
     let sizes = ["--certified", "4", "--listed", "5", "--census", "-"];
@@ -105,10 +102,10 @@ fn published_census() {
 }
 
 #[test]
+#[ignore = "needs geng"]
 fn of_a_census() {
     // The connected graphs with three nodes; geng knows those with five.
-    let lists = [Some("Bw\nBo\n".to_owned()), geng(5, 6)];
-    for list in lists.into_iter().flatten() {
+    for list in ["Bw\nBo\n".to_owned(), geng(5, 6)] {
         let run = workshop(list.as_bytes(), &["census", "--json", "-"]);
         keeps_to("census", &run, &["program", "nodes", "projective"]);
     }

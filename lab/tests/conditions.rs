@@ -21,13 +21,12 @@ fn answer<'a>(line: &'a Value, name: &str) -> &'a Value {
 /// conditions of the publication (bearing rigidity came later), and how many of these its
 /// moves show to be solvable.
 #[test]
+#[ignore = "needs geng"]
 fn published_counts() {
     let passing = [1, 1, 1, 4, 3, 36, 28];
     let by_moves = [1, 1, 1, 4, 3, 31, 5];
     for (nodes, edges, ..) in TABLE_1.into_iter().take(passing.len()) {
-        let Some(graphs) = geng(nodes, edges) else {
-            return;
-        };
+        let graphs = geng(nodes, edges);
         let output = conditions(graphs.as_bytes(), &["--json"]);
         let mut counts = (0, 0);
         for line in output.json() {

@@ -1,6 +1,6 @@
 //! lab/docs/paper.md: the commands whose output stands there print it, and it is what was published.
 
-use crate::common::{TABLE_1, absent, data};
+use crate::common::{TABLE_1, data};
 use std::path::Path;
 use std::process::Command;
 
@@ -55,20 +55,14 @@ fn expanded(word: &str, folder: &Path) -> Vec<String> {
 
 #[cfg(unix)]
 #[test]
+#[ignore = "needs data"]
 fn commands_print_what_stands_there() {
     let folder = tempfile::tempdir().unwrap();
-    let published = data().filter(|folder| folder.join("table3").is_dir());
-    if let Some(data) = &published {
-        let data = data.canonicalize().unwrap();
-        std::os::unix::fs::symlink(data, folder.path().join("data")).unwrap();
-    }
+    let data = data().canonicalize().unwrap();
+    std::os::unix::fs::symlink(data, folder.path().join("data")).unwrap();
     let examples = examples();
     assert_eq!(examples.len(), 6);
     for (words, expected) in examples {
-        if words.iter().any(|word| word.starts_with("data/")) && published.is_none() {
-            absent(&format!("no published graphs for `{}`", words.join(" ")));
-            continue;
-        }
         let words = words
             .into_iter()
             .flat_map(|word| expanded(word, folder.path()));
@@ -104,8 +98,9 @@ fn table_1_stands_there() {
 
 /// The page's Table 3 has the published sizes, densities and numbers of components.
 #[test]
+#[ignore = "needs data"]
 fn table_3_stands_there() {
-    let Some(data) = data() else { return };
+    let data = data();
     let table = std::fs::File::open(data.join("table3.csv")).unwrap();
     let mut published = csv::Reader::from_reader(table);
     let (_, printed) = examples().remove(3);

@@ -47,8 +47,9 @@ fn random_graphs_are_reproducible_and_written() {
 /// The published counts lie within the sampling error of ours: Fisher's exact test at every
 /// density, at a level of 1 in 1000 for all eight together.
 #[test]
+#[ignore = "needs data"]
 fn table_2_within_sampling_error() {
-    let Some(data) = data() else { return };
+    let data = data();
     let published = fs::read(data.join("table2.csv")).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("table.csv");

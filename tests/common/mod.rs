@@ -8,45 +8,37 @@ pub mod schema;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-/// Says that a test cannot run here. With `VIEWCERT_REQUIRE_DATA=1`, which continuous
-/// integration sets, that is a failure.
-pub fn absent(what: &str) {
-    let required = std::env::var_os("VIEWCERT_REQUIRE_DATA").is_some_and(|value| value == "1");
-    assert!(!required, "VIEWCERT_REQUIRE_DATA is set, but {what}");
-    eprintln!("SKIPPED: {what}");
+/// Fails a test that lacks something. A test that needs more than cargo has the attribute
+/// `#[ignore = "needs ..."]`: it never passes because something is absent.
+pub fn absent(what: &str) -> ! {
+    panic!("{what}; tests that need more than cargo are #[ignore = \"needs ...\"]")
 }
 
-/// Whether `mount` could mount this; where it could not, says why, as [`absent`] does.
-pub fn mounted(options: &[&str], place: &Path) -> bool {
+/// Mounts a file system, which needs root.
+pub fn mount(options: &[&str], place: &Path) {
     let mount = Command::new("mount").args(options).arg(place).output();
     match mount {
-        Ok(mount) if mount.status.success() => return true,
+        Ok(mount) if mount.status.success() => {}
         Ok(mount) => {
             let reason = String::from_utf8_lossy(&mount.stderr);
             absent(&format!("no file system may be mounted: {}", reason.trim()));
         }
         Err(error) => absent(&format!("mount is not there: {error}")),
     }
-    false
 }
 
-/// Has a small file system prepared, makes it read-only, and has a look at it; where nothing can be
-/// mounted, says why, as [`absent`] does.
+/// Has a small file system prepared, makes it read-only, and has a look at it; needs root.
 #[cfg(target_os = "linux")]
 pub fn on_read_only(
     prepare: impl FnOnce(&Path),
     look: impl FnOnce(&Path) + std::panic::UnwindSafe,
 ) {
     let place = tempfile::tempdir().unwrap();
-    let mount = |options: &[&str]| mounted(options, place.path());
-    if !mount(&["-t", "tmpfs", "-o", "size=4m", "tmpfs"]) {
-        return;
-    }
+    mount(&["-t", "tmpfs", "-o", "size=4m", "tmpfs"], place.path());
     prepare(place.path());
-    let sealed = mount(&["-o", "remount,ro"]);
     let path = place.path().to_owned();
     let found = std::panic::catch_unwind(move || {
-        assert!(sealed);
+        mount(&["-o", "remount,ro"], &path);
         assert!(std::fs::write(path.join("new"), "").is_err());
         look(&path);
     });
@@ -79,37 +71,59 @@ pub fn program(name: &str) -> PathBuf {
 
 /// The folder with the published graphs and tables, which is not part of the repository:
 /// `VIEWCERT_DATA`, or `../shared/data`. `tests/data.sh` says where its files come from.
-pub fn data() -> Option<PathBuf> {
+pub fn data() -> PathBuf {
     let beside = || root().join("../shared/data");
     let path = std::env::var_os("VIEWCERT_DATA").map_or_else(beside, PathBuf::from);
-    if path.is_dir() {
-        return Some(path);
+    if !path.is_dir() {
+        absent(&format!("the published data are not at {}", path.display()));
     }
-    absent(&format!("the published data are not at {}", path.display()));
-    None
+    path
+}
+
+/// The folder with databases of COLMAP, which is not part of the repository either.
+pub fn samples() -> PathBuf {
+    let path = data().join("colmap");
+    if !path.is_dir() {
+        absent(&format!("no databases are at {}", path.display()));
+    }
+    path
 }
 
 /// Biconnected graphs with the given numbers of nodes and edges from nauty's geng, a graph6
 /// line each.
-pub fn geng(nodes: usize, edges: usize) -> Option<String> {
-    geng_with(&["-Cq", &nodes.to_string(), &format!("{edges}:{edges}")])
+pub fn geng(nodes: usize, edges: usize) -> String {
+    let made = nauty(
+        "geng",
+        &["-Cq", &nodes.to_string(), &format!("{edges}:{edges}")],
+    );
+    String::from_utf8(made.stdout).unwrap()
 }
 
 /// Connected graphs with so many nodes from nauty's geng, a graph6 line each.
-pub fn geng_connected(nodes: usize) -> Option<String> {
-    geng_with(&["-cq", &nodes.to_string()])
+pub fn geng_connected(nodes: usize) -> String {
+    let made = nauty("geng", &["-cq", &nodes.to_string()]);
+    String::from_utf8(made.stdout).unwrap()
 }
 
-fn geng_with(arguments: &[&str]) -> Option<String> {
-    for program in ["geng", "nauty-geng"] {
-        let made = Command::new(program).args(arguments).output();
-        if let Ok(made) = made {
-            assert!(made.status.success(), "{program}");
-            return Some(String::from_utf8(made.stdout).unwrap());
+/// A run of a program of nauty.
+pub fn nauty(program: &str, arguments: &[&str]) -> Output {
+    for name in [program.to_owned(), format!("nauty-{program}")] {
+        if let Ok(made) = Command::new(&name).args(arguments).output() {
+            assert!(made.status.success(), "{name} {arguments:?}");
+            return made;
         }
     }
-    absent("neither geng nor nauty-geng is installed");
-    None
+    absent(&format!(
+        "neither {program} nor nauty-{program} is installed"
+    ))
+}
+
+/// Python: `VIEWCERT_PYTHON` names an interpreter with packages, if `python3` is not one.
+pub fn python() -> Command {
+    let python = std::env::var_os("VIEWCERT_PYTHON").unwrap_or_else(|| "python3".into());
+    let mut command = Command::new(python);
+    command.env("PYTHONDONTWRITEBYTECODE", "1");
+    command
 }
 
 /// The nodes and edges of the rows of Table 1, and the counts of the paper.
@@ -166,10 +180,8 @@ pub fn first_checker(arguments: &[&str]) -> Run {
 
 /// Runs the second checker.
 pub fn second_checker(arguments: &[&str]) -> Run {
-    let python = std::env::var("VIEWCERT_PYTHON").unwrap_or_else(|_| "python3".to_owned());
     let checker = root().join("crates/check/second/check.py");
-    let mut command = Command::new(python);
-    Run::new(command.arg(checker).args(arguments).output().unwrap())
+    Run::new(python().arg(checker).args(arguments).output().unwrap())
 }
 
 /// Runs `verify` with something on standard input.

@@ -3,7 +3,7 @@
     python3 write.py FOLDER SEED
 
 Writes FOLDER/NAME and one line of JSON a file on standard output: its name, its nodes and its
-pairs as the labels that a reader must find. Exits with 77 and a reason if a package is missing.
+pairs as the labels that a reader must find.
 """
 
 import json
@@ -11,12 +11,8 @@ import random
 import sys
 from pathlib import Path
 
-try:
-    import networkx as nx
-    import scipy.io
-except ImportError as error:
-    print(error)
-    sys.exit(77)
+import networkx as nx
+import scipy.io
 
 
 def labels(rng, count):
