@@ -25,20 +25,20 @@ pub(super) struct AdviseArguments {
 /// What is asked about an answer.
 #[derive(Args)]
 pub(super) struct AdviceArguments {
-    /// Find the pairs (`--weak=images`: the images) without which a component falls apart.
+    /// Find the pairs (`--weak=images`: the images) without which a component is not finite solvable.
     #[arg(long, value_name = "WHAT", num_args = 0..=1, require_equals = true)]
     #[arg(value_enum, default_missing_value = "pairs")]
     weak: Option<WeakName>,
     /// Say of every pair in how many of its equations the rest checks it, and which pairs check each
-    /// other: an error in what nothing checks cannot be seen by anyone.
+    /// other: an error in what nothing checks cannot be seen by anyone. Calibrated: of its direction alone.
     #[arg(long)]
     surplus: bool,
-    /// Say whether every component stays one whichever pair is lost (`images:1`: image), and what
-    /// breaks it.
+    /// Say whether every component stays finite solvable whichever pair is lost (`images:1`: image), and
+    /// what breaks it.
     #[arg(long, value_name = "1")]
     redundant: Option<Lost>,
-    /// Count the pairs that are determined though they are not in the graph, and list N of them at
-    /// most [default: 1000].
+    /// Count the pairs that are determined though they are not in the graph, up to finitely many values if it
+    /// is not unique, and list N of them at most [default: 1000].
     #[arg(long, value_name = "N", num_args = 0..=1, require_equals = true)]
     #[arg(default_missing_value = "1000")]
     implied: Option<u32>,

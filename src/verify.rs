@@ -43,7 +43,7 @@ pub(super) struct VerifyArguments {
     planar: bool,
     #[command(flatten)]
     intrinsics: IntrinsicsArguments,
-    /// Count the solutions of graphs that are finite solvable.
+    /// Count the solutions of graphs that are finite solvable, over the complex numbers.
     #[arg(long, value_enum, value_name = "HOW", num_args = 0..=1, require_equals = true)]
     #[arg(default_value = "quick", default_missing_value = "quick")]
     solutions: Solutions,

@@ -55,6 +55,7 @@ fn surplus_by_hand() {
     for line in [
         "  surplus     15 pairs checked by the rest in all 7 equations if every other pair is right (proved)\n",
         "    5 pairs checked in 3 of 7\n",
+        "    by the rest each has finitely many values, if not one: a small error shows\n",
         "    1 pair that nothing checks: an error there cannot be seen by anyone\n      a one\n",
         "    2 groups of pairs that check each other and nothing else; the largest has 17 pairs of 7 images\n",
     ] {
@@ -80,11 +81,12 @@ fn what_may_be_lost() {
         } else {
             "pairs"
         };
-        let expected = json!({ "of": of, "lost": 1, "stay": 1, "broken": [] });
+        let expected =
+            json!({ "of": of, "lost": 1, "kept": "finite-solvable", "stay": 1, "broken": [] });
         assert_eq!(line["redundant"], expected);
     }
     let said = text(complete.as_bytes(), &["--redundant", "1"]);
-    let expected = "  redundant   1 component: whole whichever pair is lost (proved)\n";
+    let expected = "  redundant   1 component: finite solvable, if not unique, whichever pair is lost (proved)\n";
     assert!(said.contains(expected), "{said}");
     // One pair of the image with two, and of the triangle.
     let line = report(GRAPH, &["--redundant", "1"]);
@@ -121,6 +123,7 @@ fn implied_pairs_beyond_components() {
         "sets": [{ "images": 4, "implied": 2 }],
         "pairs": [["0", "2"], ["9", "10"]],
         "all_listed": true,
+        "unique": false,
         "strength": "proof",
         "complete": "proof",
     });
@@ -138,6 +141,132 @@ fn implied_pairs_beyond_components() {
     let expected =
         "  implied     4 pairs determined though not in the graph (proved, and no others)\n";
     assert!(said.contains(expected), "{said}");
+}
+
+/// Two solutions, as 9 cameras with 12 pairs have them: a pair that is implied has two values, and to add it leaves one.
+const TWO: &str = "1 3\n1 4\n2 5\n3 5\n2 6\n4 6\n0 7\n4 7\n5 7\n0 8\n3 8\n6 8\n";
+
+#[test]
+fn implied_pairs_have_finitely_many_values() {
+    let solutions = |graph: &str| {
+        let run = verify_with(graph.as_bytes(), &["-", "--json", "--solutions=full"]);
+        run.json()[0]["solutions"]["exactly"].clone()
+    };
+    assert_eq!(solutions(TWO), 2);
+    let line = report(TWO.as_bytes(), &["--implied"]);
+    assert_eq!(line["implied"]["count"], 24);
+    assert_eq!(line["implied"]["unique"], false);
+    let pairs = line["implied"]["pairs"].as_array().unwrap();
+    assert!(pairs.contains(&json!(["0", "1"])), "{line}");
+    assert_eq!(solutions(&format!("{TWO}0 1\n")), 1);
+    let said = text(TWO.as_bytes(), &["--implied"]);
+    let expected = "implied     24 pairs determined up to finitely many values though not in the graph (proved,";
+    assert!(said.contains(expected), "{said}");
+    // Unique graphs and components, and models in which finite means unique.
+    let unique: [(&[u8], &[&str]); 3] = [
+        (GRAPH, &["--implied"]),
+        (b"0 1\n0 2\n1 2\n1 3\n2 3\n", &["--implied"]),
+        (TWO.as_bytes(), &["--implied", "--model", "calibrated"]),
+    ];
+    for (graph, options) in unique {
+        assert_eq!(report(graph, options)["implied"]["unique"], true);
+        assert!(text(graph, options).contains("determined though not in the graph"));
+    }
+}
+
+/// Each pair of `TWO` inside a K_4 of its own, and one implied pair: unique. Whichever pair is lost it stays finite
+/// solvable, but without the implied one there are two solutions.
+#[test]
+fn what_is_kept_is_finite_solvability() {
+    let mut graph = String::new();
+    for pair in TWO.lines() {
+        let (a, b) = pair.split_once(' ').unwrap();
+        let nodes = [
+            a.to_owned(),
+            b.to_owned(),
+            format!("u{a}{b}"),
+            format!("v{a}{b}"),
+        ];
+        for (k, one) in nodes.iter().enumerate() {
+            for other in &nodes[..k] {
+                graph += &format!("{one} {other}\n");
+            }
+        }
+    }
+    let decided = |graph: &str| {
+        verify_with(graph.as_bytes(), &["-", "--json"])
+            .json()
+            .remove(0)
+    };
+    assert_eq!(decided(&graph)["solutions"]["exactly"], 2);
+    graph += "0 1\n";
+    assert_eq!(decided(&graph)["verdict"], "solvable");
+    let options = ["--weak", "--redundant", "1", "--surplus"];
+    let line = report(graph.as_bytes(), &options);
+    assert_eq!(line["weak"]["items"], json!([]));
+    for asked in ["weak", "redundant"] {
+        assert_eq!(line[asked]["kept"], "finite-solvable");
+    }
+    let said = text(graph.as_bytes(), &options);
+    for words in [
+        "weak        none found\n    without any other one it stays finite solvable, if not unique\n",
+        "redundant   1 component: finite solvable, if not unique, whichever pair is lost (proved)\n",
+        "surplus     73 pairs checked by the rest in all 7 equations if every other pair is right (proved)\n    by the rest each has finitely many values",
+    ] {
+        assert!(said.contains(words), "{words}{said}");
+    }
+    let run = verify_with(
+        graph.as_bytes(),
+        &[
+            "advise",
+            "-",
+            "--weak",
+            "--redundant",
+            "1",
+            "--model",
+            "affine",
+        ],
+    );
+    assert!(!run.out.contains("if not unique"), "{}", run.out);
+    for asked in ["weak", "redundant"] {
+        let line = report(
+            graph.as_bytes(),
+            &["--weak", "--redundant", "1", "--model", "calibrated"],
+        );
+        assert_eq!(line[asked]["kept"], "solvable");
+    }
+}
+
+/// A pair of a cycle of four calibrated cameras adds rank 2 of the 5 of an essential matrix (an independent rank, with
+/// rotations, centres and focal lengths unknown): both are those of its direction, and a loop shows its rotation.
+#[test]
+fn calibrated_surplus_is_about_directions() {
+    for model in ["calibrated", "focal"] {
+        let cycle = b"0 1\n1 2\n2 3\n3 0\n";
+        let line = report(cycle, &["--surplus", "--model", model]);
+        let surplus = &line["surplus"];
+        assert_eq!(surplus["equations_of"], "direction");
+        assert_eq!(
+            (&surplus["full"], &surplus["checked"]),
+            (&json!(2), &json!(0))
+        );
+        let said = text(cycle, &["--surplus", "--model", model]);
+        let words = "0 pairs checked by the rest in all 2 equations of its direction if every other pair is right (proved)\n    4 pairs whose direction nothing \
+                     checks: an error in it cannot be seen by anyone; loops of pairs check rotations\n";
+        assert!(said.contains(words), "{said}");
+        let said = text(
+            b"0 1\n1 2\n2 3\n3 0\n0 2\n1 3\n",
+            &["--surplus", "--model", model],
+        );
+        assert!(
+            said.contains("    none whose direction nothing checks\n"),
+            "{said}"
+        );
+    }
+    let line = report(TWO.as_bytes(), &["--surplus"]);
+    assert_eq!(line["surplus"]["equations_of"], "fundamental matrix");
+    let line = report(TWO.as_bytes(), &["--surplus", "--model", "affine"]);
+    assert_eq!(line["surplus"]["equations_of"], "affine fundamental matrix");
 }
 
 /// Observations are pairs with two equations; what is implied is said of cameras alone.

@@ -186,11 +186,10 @@ fn without_counting_a_negative_verdict_has_an_error_bound() {
 
 /// Table 1 for n = 3 .. 8, in both modes, with and without contraction.
 #[test]
+#[ignore = "needs geng"]
 fn table_1_in_both_modes() {
     for (nodes, edges, candidates, solvable) in TABLE_1.into_iter().take(6) {
-        let Some(graphs) = geng(nodes, edges) else {
-            return;
-        };
+        let graphs = geng(nodes, edges);
         assert_eq!(graphs.lines().count(), candidates);
         for mode in ["--prime", "--rational"] {
             // A rational computation on whole graphs with 8 nodes takes a while.
@@ -209,11 +208,10 @@ fn table_1_in_both_modes() {
 
 /// Table 1 whole, every verdict, rank and partition into components a proof.
 #[test]
+#[ignore = "needs geng"]
 fn table_1_is_proved() {
     for (nodes, edges, candidates, solvable) in TABLE_1 {
-        let Some(graphs) = geng(nodes, edges) else {
-            return;
-        };
+        let graphs = geng(nodes, edges);
         let run = verify_with(graphs.as_bytes(), &["-", "--json"]);
         assert_eq!(count(&run), (candidates, solvable), "{nodes} nodes");
         for line in run.json() {
@@ -235,8 +233,9 @@ fn count(run: &crate::common::Run) -> (usize, usize) {
 
 /// All 29 graphs of Table 3: the published number of components, everything proved.
 #[test]
+#[ignore = "needs data"]
 fn table_3_has_the_published_components() {
-    let Some(data) = data() else { return };
+    let data = data();
     let table = std::fs::read_to_string(data.join("table3.csv")).unwrap();
     let mut rows = 0;
     for row in table.lines().skip(1) {
@@ -258,8 +257,9 @@ fn table_3_has_the_published_components() {
 
 /// Three of the synthetic graphs carry the true component of every edge.
 #[test]
+#[ignore = "needs data"]
 fn synthetic_graphs_have_their_true_components() {
-    let Some(data) = data() else { return };
+    let data = data();
     for name in ["house", "triangles2", "triangles3"] {
         let path = data.join("synthetic").join(name).with_extension("mat");
         let bytes = std::fs::read(&path).unwrap();
@@ -379,7 +379,7 @@ fn solutions_are_counted() {
         "{said}"
     );
     assert!(
-        said.contains("finite solvable: exactly 2 solutions (proved)"),
+        said.contains("finite solvable: exactly 2 solutions over the complex numbers (proved)"),
         "{said}"
     );
     assert!(
@@ -514,8 +514,9 @@ fn moduli_are_refused_with_a_reason() {
 
 /// Small primes prove what they can and leave the rest open; they never lie.
 #[test]
+#[ignore = "needs geng"]
 fn small_primes_are_honest() {
-    let Some(graphs) = geng(7, 9) else { return };
+    let graphs = geng(7, 9);
     for prime in ["--prime=5", "--prime=7", "--prime=101"] {
         let run = verify_with(graphs.as_bytes(), &["-", "--json", prime]);
         let lines = run.json();

@@ -97,6 +97,8 @@ pub struct Joint {
 pub struct Weak {
     /// `pairs` or `images`; in a camera-point graph `observations` or `cameras and points`.
     pub of: &'static str,
+    /// What a component stays without any other one: `finite-solvable`, if not unique, or `solvable`.
+    pub kept: &'static str,
     /// What each of them is.
     pub items: Vec<WeakItem>,
     /// How many pairs are components by themselves; they are not among the items.

@@ -184,6 +184,7 @@ impl<'a> Task<'a> {
                 (Weak::Images, None) => "images",
                 (Weak::Images, Some(_)) => "cameras and points",
             },
+            kept: self.kept(),
             items,
             single_pairs: self.parts.links.len(),
         })

@@ -121,6 +121,12 @@ fn weak(out: &mut impl Write, found: &Weak, single_pairs_only: bool) -> io::Resu
         )?;
     }
     rest(out, found.items.len(), "--json lists them")?;
+    if found.kept != "solvable" {
+        writeln!(
+            out,
+            "    without any other one it stays finite solvable, if not unique"
+        )?;
+    }
     if found.single_pairs > 0 {
         let thing = match found.of {
             "pairs" | "images" => "single pair",

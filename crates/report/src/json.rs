@@ -235,8 +235,7 @@ pub(super) struct ComponentLine {
     points: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
     labels: Option<Vec<String>>,
-    /// Of a graph that falls apart, where more is known than that there are finitely many, and it is
-    /// not just one.
+    /// Of a graph that falls apart, where it is not proved to be just one.
     #[serde(skip_serializing_if = "Option::is_none")]
     solutions: Option<SolutionsLine>,
 }

@@ -27,10 +27,19 @@ fn surplus(out: &mut impl Write, found: &Surpluses) -> io::Result<()> {
     let thing = found.of.trim_end_matches('s');
     let of = counted(found.checked, thing);
     let (full, condition) = (found.full, found.condition);
+    let is_direction = found.equations_of == "direction";
+    let equations = match is_direction {
+        true => "equations of its direction",
+        false => "equations",
+    };
     writeln!(
         out,
-        "  surplus     {of} checked by the rest in all {full} equations {condition} (proved)"
+        "  surplus     {of} checked by the rest in all {full} {equations} {condition} (proved)"
     )?;
+    if found.equations_of == "fundamental matrix" && found.checked > 0 {
+        let words = "by the rest each has finitely many values, if not one: a small error shows";
+        writeln!(out, "    {words}")?;
+    }
     for surplus in (1..full).rev() {
         let some = found.items.iter().filter(|item| item.surplus == surplus);
         let count = some.count();
@@ -47,14 +56,23 @@ fn surplus(out: &mut impl Write, found: &Surpluses) -> io::Result<()> {
         .iter()
         .filter(|item| item.surplus == 0)
         .collect();
+    let (whose, at) = match is_direction {
+        true => ("whose direction", "an error in it"),
+        false => ("that", "an error there"),
+    };
     if none.is_empty() {
-        writeln!(out, "    none that nothing checks")?;
+        writeln!(out, "    none {whose} nothing checks")?;
     } else {
         let bound = none.iter().any(|item| item.strength != "proof");
         writeln!(
             out,
-            "    {} that nothing checks: an error there cannot be seen by anyone{}",
+            "    {} {whose} nothing checks: {at} cannot be seen by anyone{}{}",
             counted(none.len(), thing),
+            if is_direction && found.of == "pairs" {
+                "; loops of pairs check rotations"
+            } else {
+                ""
+            },
             if bound { " (error bound)" } else { "" }
         )?;
         for item in none.iter().take(SHOWN) {
@@ -107,15 +125,19 @@ fn redundant(out: &mut impl Write, found: &Redundant) -> io::Result<()> {
             "  redundant   nothing to lose: no component is more than a pair"
         );
     }
+    let kept = match found.kept {
+        "solvable" => "solvable",
+        _ => "finite solvable, if not unique,",
+    };
     if broken == 0 {
         return writeln!(
             out,
-            "  redundant   {components}: whole whichever {lost} lost (proved)"
+            "  redundant   {components}: {kept} whichever {lost} lost (proved)"
         );
     }
     writeln!(
         out,
-        "  redundant   {} of {components} stay whole whichever {lost} lost (proved)",
+        "  redundant   {} of {components} stay {kept} whichever {lost} lost (proved)",
         found.stay
     )?;
     for one in found.broken.iter().take(SHOWN) {
@@ -147,9 +169,13 @@ fn implied(out: &mut impl Write, found: &Implied, of_tracks: bool) -> io::Result
         ("proof", _) => "proved; no others, by an error bound",
         _ => "error bound",
     };
+    let determined = match found.unique {
+        true => "determined",
+        false => "determined up to finitely many values",
+    };
     writeln!(
         out,
-        "  implied     {pairs} determined though not in the graph ({strength})"
+        "  implied     {pairs} {determined} though not in the graph ({strength})"
     )?;
     if found.beyond_components > 0 {
         writeln!(

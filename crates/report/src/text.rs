@@ -2,6 +2,7 @@
 
 use super::{Report, condition, counted, database, size_with_parts, tracks};
 use std::io::{self, Write};
+use viewcert::contract::Merge;
 use viewcert::decide::Strength;
 use viewcert::decide::evidence::{Evidence, Witness};
 use viewcert::decide::{Bound, Component, SolutionCount, Value, Verdict};
@@ -41,11 +42,9 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
     }
     writeln!(out, "  verdict     {}", answer(report))?;
     writeln!(out, "  because     {}", reason(input, verdict))?;
-    if verdict
-        .solutions
-        .as_ref()
-        .is_some_and(|count| count.full_may_tell_more)
-    {
+    let of_components = verdict.components.iter().map(|one| &one.solutions);
+    let mut counts = of_components.chain([&verdict.solutions]).flatten();
+    if counts.any(|count| count.full_may_tell_more) {
         let hint = "--solutions=full may tell how many solutions, in about a second";
         writeln!(out, "  hint        {hint}")?;
     }
@@ -142,7 +141,7 @@ pub(super) fn answer(report: &Report) -> String {
         (_, Some(_)) => "the positions of all cameras and points are unique".into(),
         (Value::Solvable, None) => "the cameras are unique".into(),
         (Value::FiniteSolvable, None) => match known {
-            Some(count) => count.to_string(),
+            Some(count) => format!("{count} over the complex numbers"),
             None => "finitely many sets of cameras".into(),
         },
     };
@@ -198,10 +197,15 @@ pub(super) fn reason(input: &NamedGraph, verdict: &Verdict) -> String {
             }
             0 => "a single pair determines its two cameras".into(),
             1 => match input.cameras {
-                None if verdict.contraction.bodies[0].add.is_empty() => {
-                    format!("one body of {nodes} cameras around a K_{{2,3}}")
-                }
-                None => format!("one body grows from a triangle to all {nodes} cameras"),
+                None => match &verdict.contraction.bodies[0].merge[..] {
+                    [Merge::Biclique { .. }, ..] => {
+                        format!("one body of {nodes} cameras around a K_{{2,3}}")
+                    }
+                    [Merge::Cycle { .. }, ..] => {
+                        format!("one body of {nodes} cameras around a cycle of four")
+                    }
+                    _ => format!("one body grows from a triangle to all {nodes} cameras"),
+                },
                 Some(_) => format!("one body grows to all {nodes} {members}"),
             },
             merges => format!("{merges} bodies merge into one with all {nodes} {members}"),
@@ -311,14 +315,14 @@ fn sizes(verdict: &Verdict) -> String {
     format!(": {}", text.join(", "))
 }
 
-/// How many solutions a component of a graph that falls apart has, if that is known and not just one.
+/// How many solutions a component of a graph that falls apart has, as far as that is known, unless it is just one.
 pub(super) fn several<'v>(
     verdict: &Verdict,
     component: &'v Component,
 ) -> Option<&'v SolutionCount> {
     let falls_apart = verdict.value == Value::NotFiniteSolvable;
     let count = component.solutions.as_ref().filter(|_| falls_apart)?;
-    (count.at_least > 1 || count.at_most.is_some() && !count.is_one()).then_some(count)
+    (!count.is_one()).then_some(count)
 }
 
 /// A time for people.

@@ -153,7 +153,7 @@ class Break:
 
 @dataclass(frozen=True)
 class Implied(Generic[N]):
-    """Pairs that are determined though they are not in the graph.
+    """Pairs that are determined though they are not in the graph, up to finitely many values.
 
     Attributes
     ----------
@@ -163,6 +163,8 @@ class Implied(Generic[N]):
         How many of them no component holds.
     pairs : tuple
         The first of them.
+    unique : bool
+        Whether each is proved to have one value. Otherwise to add one may leave fewer solutions.
     strength, complete : str
         How strong it is that these are determined, and that no others are.
     """
@@ -170,6 +172,7 @@ class Implied(Generic[N]):
     count: int
     beyond_components: int
     pairs: Tuple[Tuple[N, N], ...]
+    unique: bool
     strength: Strength
     complete: Strength
 
@@ -197,7 +200,10 @@ def weak(verdict: Given[N], of: Lost = ...) -> List[Weak[N]]: ...
 @overload
 def weak(verdict: Any, of: Lost = ...) -> List[Weak[Any]]: ...
 def weak(verdict: Any, of: Lost = "pairs") -> List[Weak[Any]]:
-    """The pairs without any one of which a component falls apart.
+    """The pairs without any one of which a component falls apart, that is, is not finite solvable.
+
+    Without any other pair it stays finite solvable; in the projective model it need not stay
+    unique.
 
     Parameters
     ----------
@@ -247,8 +253,9 @@ def surplus(verdict: Any) -> Dict[Tuple[Any, Any], Dict[str, Any]]:
     Returns
     -------
     dict
-        For every pair ``surplus`` (0: an error in it cannot be seen by anyone), ``full`` (the
-        equations of a pair: 7, calibrated 2, affine 4) and ``strength`` (``'proof'`` or
+        For every pair ``surplus`` (0: an error in these equations cannot be seen by anyone), ``full``
+        (how many equations there are: 7, affine 4, calibrated 2, those of the direction alone: loops
+        of pairs check rotations) and ``strength`` (``'proof'`` or
         ``'error-bound'``), as :func:`networkx.set_edge_attributes` takes them.
 
     Examples
@@ -286,8 +293,8 @@ def redundant(verdict: Any, of: Lost = "pairs") -> List[Break]:
     Returns
     -------
     list of Break
-        Each with a set that breaks it. All other components with three nodes or more stay, which is
-        proved.
+        Each with a set that breaks it. All other components with three nodes or more stay finite
+        solvable, in the calibrated and the affine model solvable, which is proved.
 
     Examples
     --------
@@ -322,7 +329,7 @@ def implied(verdict: Given[N], most: int = ...) -> Implied[N]: ...
 @overload
 def implied(verdict: Any, most: int = ...) -> Implied[Any]: ...
 def implied(verdict: Any, most: int = 1000) -> Implied[Any]:
-    """The pairs that are determined though they are not in the graph.
+    """The pairs that are determined though they are not in the graph, up to finitely many values.
 
     Parameters
     ----------
@@ -346,6 +353,7 @@ def implied(verdict: Any, most: int = 1000) -> Implied[Any]:
         count=found["count"],
         beyond_components=found["beyond_components"],
         pairs=tuple((by_text[a], by_text[b]) for a, b in found["pairs"]),
+        unique=found["unique"],
         strength=found["strength"],
         complete=found["complete"],
     )

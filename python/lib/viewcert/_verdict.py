@@ -92,7 +92,9 @@ class Joint(Generic[N]):
 
 @dataclass(frozen=True)
 class Solutions:
-    """How many sets of cameras there are, at generic cameras.
+    """How many sets of cameras there are, at generic cameras, over the complex numbers.
+
+    Those that are real may be fewer.
 
     Attributes
     ----------
@@ -794,8 +796,8 @@ def verify(
         Whether to say what the graph determines if all centres lie in one plane, see
         `Verdict.planar`.
     solutions : {'quick', 'full'}, optional
-        Count how many sets of cameras there are where that takes about a second at most, or
-        whatever it takes; None does not count.
+        Count how many sets of cameras there are, over the complex numbers, where that takes about a
+        second at most, or whatever it takes; None does not count.
     seed : int
         Seed of all random cameras, at least 0. It matters for no proof.
     rational : bool

@@ -5,15 +5,18 @@ use crate::task::{Task, number};
 use anyhow::{Context, Result};
 use serde::Serialize;
 use std::collections::BTreeMap;
-use viewcert::Strength;
-use viewcert::decide::{closure, groups};
+use viewcert::decide::{SolutionCount, closure, groups};
+use viewcert::{Model, Strength, Value};
 
 /// The pairs, by how many of their equations the rest checks.
 #[derive(Clone, Debug, Serialize)]
 pub struct Surpluses {
     /// `pairs` or `observations`.
     pub of: &'static str,
-    /// The equations of each: 7, calibrated 2, affine 4.
+    /// What the equations are of: `fundamental matrix`, `affine fundamental matrix` or, where rotations are
+    /// supposed to be known, `direction`.
+    pub equations_of: &'static str,
+    /// How many each of them has: 7, 4, 2.
     pub full: usize,
     /// How many pairs are checked in all of them.
     pub checked: usize,
@@ -30,7 +33,7 @@ pub struct Surpluses {
 pub struct SurplusItem {
     /// The pair.
     pub images: [String; 2],
-    /// In how many it is: 0 if no error in it can be seen.
+    /// In how many it is: 0 if no error in these can be seen.
     pub surplus: usize,
     /// How strong that is: `proof` or `error-bound`.
     pub strength: &'static str,
@@ -65,6 +68,8 @@ pub struct Redundant {
     pub of: &'static str,
     /// How many.
     pub lost: u8,
+    /// What those that stay are proved to be: `finite-solvable`, if not unique, or `solvable`.
+    pub kept: &'static str,
     /// How many components of three images and more stay, which is proved.
     pub stay: usize,
     /// The others.
@@ -95,6 +100,8 @@ pub struct Implied {
     pub pairs: Vec<[String; 2]>,
     /// Whether these are all.
     pub all_listed: bool,
+    /// Whether each of them is proved to have one value; otherwise it has finitely many.
+    pub unique: bool,
     /// How strong it is that these are determined: `proof` or `error-bound`.
     pub strength: &'static str,
     /// How strong it is that no others are.
@@ -128,6 +135,11 @@ impl Task<'_> {
         Ok(Surpluses {
             of,
             condition,
+            equations_of: match self.verdict.model {
+                Model::Projective => "fundamental matrix",
+                Model::Calibrated => "direction",
+                Model::Affine => "affine fundamental matrix",
+            },
             full: self.verdict.model.required(2),
             checked,
             items: items.collect(),
@@ -186,6 +198,7 @@ impl Task<'_> {
         Ok(Redundant {
             of,
             lost: 1,
+            kept: self.kept(),
             stay: self.parts.parts.len() - broken.len(),
             broken,
         })
@@ -230,9 +243,31 @@ impl Task<'_> {
             beyond_components: beyond,
             sets: sets.filter(|set| set.implied > 0).collect(),
             all_listed: pairs.len() as u64 == count,
+            unique: self.is_unique() || beyond == 0 && self.are_parts_unique(),
             pairs,
             strength: found.implied.name(),
             complete: found.complete.name(),
+        })
+    }
+
+    /// What a component is where the rank alone is looked at.
+    pub(crate) fn kept(&self) -> &'static str {
+        match self.verdict.model {
+            Model::Projective => Value::FiniteSolvable.name(),
+            Model::Calibrated | Model::Affine => Value::Solvable.name(),
+        }
+    }
+
+    /// Whether what is finite is unique.
+    fn is_unique(&self) -> bool {
+        self.verdict.model != Model::Projective || self.verdict.value == Value::Solvable
+    }
+
+    /// Whether each component of three images and more has one solution by itself.
+    fn are_parts_unique(&self) -> bool {
+        self.parts.parts.iter().all(|part| {
+            let count = self.verdict.components[part.component].solutions.as_ref();
+            count.is_some_and(SolutionCount::is_one)
         })
     }
 

@@ -1,4 +1,5 @@
-//! The surplus of every pair: what it tells that the rest of the graph tells as well.
+//! The surplus of every pair: what it tells that the rest of the graph tells as well. In the calibrated model
+//! that is about directions: rotations, which loops check, are supposed to be known.
 //!
 //! In: a graph and its verdict. Out: the pairs whose surplus is not full, each with it. Where the
 //! ranks of the components add up to the rank of the graph, each component is looked at by itself;
@@ -20,7 +21,7 @@ type Pair = (u32, u32);
 pub struct Surplus {
     /// The pair.
     pub pair: Pair,
-    /// In how many of its equations it is checked: 0 if an error in it can never be seen.
+    /// In how many of its equations it is checked: 0 if an error in these can never be seen.
     pub surplus: usize,
     /// How strong that is.
     pub strength: Strength,

@@ -315,11 +315,13 @@ impl Found<'_> {
             let (bodies, edges) = (&component.members.bodies, &component.members.edges);
             let is_one = self.model() != Model::Projective
                 || bodies.len() + edges.len() == 1 && contraction.by_rank.is_empty();
-            let count = if is_one {
+            let mut count = if is_one {
                 SolutionCount::one()
             } else {
                 self.count(contraction, bodies, edges, effort)?
             };
+            // Quick counts have ended before this one.
+            count.full_may_tell_more |= !is_one && effort != self.effort(contraction);
             let is_open = count.at_most.is_none() && count.evidence.is_some();
             counted += usize::from(!is_one);
             if effort == CountSolutions::Quick && (is_open || counted == MOST_COMPONENTS) {

@@ -120,9 +120,9 @@
     affine: "Each component is determined by itself, up to an affine change; how they fit together is not.",
   };
   const solutionsCounted = ({ exactly, at_least, at_most }) =>
-    exactly ? `There are exactly ${exactly} sets of cameras.`
-      : at_most ? `There are at least ${at_least} and at most ${at_most} sets of cameras.`
-        : at_least > 1 ? `There are at least ${at_least} sets of cameras.`
+    exactly ? `There are exactly ${exactly} sets of cameras over the complex numbers.`
+      : at_most ? `There are at least ${at_least} and at most ${at_most} sets of cameras over the complex numbers.`
+        : at_least > 1 ? `There are at least ${at_least} sets of cameras over the complex numbers.`
           : "Whether there is just one set of cameras is left open.";
   const ANSWERS = {
     solvable: [`Solvable: ${placed} unique`, UNIQUE[report.model]],
@@ -700,10 +700,11 @@
     sweep: "Components by threshold",
   };
   // What components hang on: a sentence, and the list.
-  const weakPart = (id, { of, items, single_pairs: single }) => {
+  const weakPart = (id, { of, kept, items, single_pairs: single }) => {
     const section = html("section", { id }, html("h2", {}, TITLES.weak));
-    const rest = single > 0
-      ? ` Not among them: ${counted(single, `single ${edgeWord}`)}, on which no larger component rests.` : "";
+    const others = kept === "solvable" ? "" : " Without any other one it stays finite solvable, if not unique.";
+    const rest = others + (single > 0
+      ? ` Not among them: ${counted(single, `single ${edgeWord}`)}, on which no larger component rests.` : "");
     const said = items.length > 0 ? `Without any one of these ${of} a component falls apart.` : `No ${of} are weak.`;
     if (items.length > 0) objectsTable(section, said + rest, items);
     else section.append(html("p", {}, said + rest));
@@ -711,11 +712,13 @@
   };
   // In how many equations the rest checks each pair: a sentence, lines over the picture, from red (in
   // none) to yellow, and the list in the same colours.
-  const surplusPart = (id, { of, full, checked, items, groups }) => {
+  const surplusPart = (id, { of, equations_of: equations, full, checked, items, groups }) => {
     const section = html("section", { id }, html("h2", {}, TITLES.surplus));
     const blind = items.filter((item) => item.surplus === 0).length;
-    const said = [`${counted(checked, edgeWord)} of ${grouped(report.graph.edges)} are checked by the rest in all ${full} equations.`,
-      blind > 0 ? `${counted(blind, edgeWord)} are checked in none: an error there cannot be seen by anyone.` : "",
+    const said = [`${counted(checked, edgeWord)} of ${grouped(report.graph.edges)} are checked by the rest in all ${full} equations of their ${equations}.`,
+      equations === "fundamental matrix" && checked > 0 ? "By the rest each of these has finitely many values, if not one: a small error shows." : "",
+      blind > 0 ? `${counted(blind, edgeWord)} are checked in none: an error in this ${equations} cannot be seen by anyone.` : "",
+      equations === "direction" && of === "pairs" ? "Loops of pairs check rotations." : "",
       groups && groups.count > 0
         ? `${counted(groups.count, "group")} of ${of} check each other and nothing else; the largest has ${grouped(groups.larger[0].pairs)} of them.`
         : ""].filter(Boolean).join(" ");
