@@ -4,7 +4,7 @@
 # publishing does it.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-all=(--workspace --exclude viewcert-python)
+all=(--workspace --exclude viewcert-python --exclude viewcert-unify)
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 

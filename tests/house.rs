@@ -181,35 +181,6 @@ fn libraries_know_neither_arguments_nor_floats_nor_databases() {
     }
 }
 
-/// A value that is made once and never changes is no global state.
-#[test]
-fn a_run_is_a_value() {
-    let crates = [
-        "core", "formats", "session", "advice", "catalog", "report", "audit",
-    ];
-    let folders = crates.map(|name| format!("crates/{name}"));
-    for folder in
-        folders
-            .iter()
-            .map(String::as_str)
-            .chain([".", "lab", "lab/catalog", "lab/studies"])
-    {
-        for path in sources(folder) {
-            let text = fs::read_to_string(&path).unwrap();
-            let product = text.split("#[cfg(test)]\nmod ").next().unwrap();
-            for line in product.lines().map(str::trim_start) {
-                let declared = line
-                    .trim_start_matches("pub ")
-                    .trim_start_matches("pub(crate) ");
-                let is_static = declared.starts_with("static ");
-                let changes = ["Mutex", "RwLock", "OnceLock", "Atomic", "static mut"];
-                let is_state = is_static && changes.iter().any(|word| line.contains(word));
-                assert!(!is_state, "{}: {line}", path.display());
-            }
-        }
-    }
-}
-
 /// A file that its package's `tests/all.rs` does not name would never run.
 #[test]
 fn every_test_file_is_in_the_test_program() {
