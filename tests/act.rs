@@ -1,6 +1,6 @@
 //! What to do about a verdict, through the real binary: joints, weak pairs, suggestions, exports.
 
-use crate::common::{Run, cycle, data, verify, verify_with};
+use crate::common::{Run, cycle, data, samples, verify, verify_with};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::fs;
@@ -594,10 +594,9 @@ impl Cut {
 }
 
 #[test]
+#[ignore = "needs data"]
 fn a_cut_sequence_is_mended_by_neighbours() {
-    let Some(data) = data() else {
-        return;
-    };
+    let data = data();
     let source = data.join("turn4/photos/street_seq2.db");
     for at in 2..18 {
         let cut = Cut::new(&source, at);
@@ -624,10 +623,9 @@ fn a_cut_sequence_is_mended_by_neighbours() {
 }
 
 #[test]
+#[ignore = "needs data"]
 fn what_was_matched_in_vain_is_not_named_again() {
-    let Some(data) = data() else {
-        return;
-    };
+    let data = data();
     // Every pair of the last image was matched, and none gave enough.
     let banana = data.join("colmap/photos_banana.db");
     let words = ["advise", "--tracks", banana.to_str().unwrap()];
@@ -673,10 +671,9 @@ fn what_was_matched_in_vain_is_not_named_again() {
 
 /// What a suggestion proves holds under a condition, which stands wherever the word does.
 #[test]
+#[ignore = "needs samples"]
 fn no_suggestion_is_called_proved_without_its_condition() {
-    let Some(colmap) = data().map(|data| data.join("colmap")) else {
-        return;
-    };
+    let colmap = samples();
     let mut seen = 0;
     for name in [
         "clusters_two_edges.db",
@@ -709,10 +706,9 @@ fn no_suggestion_is_called_proved_without_its_condition() {
 /// Mappers work with tracks: where pairs fall apart that tracks hold together, lists by pairs would cut
 /// what a mapper makes of the whole.
 #[test]
+#[ignore = "needs samples"]
 fn a_database_is_exported_by_its_tracks() {
-    let Some(colmap) = data().map(|data| data.join("colmap")) else {
-        return;
-    };
+    let colmap = samples();
     let folder = tempfile::tempdir().unwrap();
     let lists = |words: &[&str]| {
         let to = folder.path().join("parts");

@@ -33,11 +33,10 @@ fn table_1_as_published() {
 
 /// The same graphs as nauty's geng, up to labels, beyond the least number of edges too.
 #[test]
+#[ignore = "needs geng"]
 fn the_candidates_of_geng() {
     for (nodes, edges) in [(6, 9), (7, 12), (8, 11), (9, 12), (9, 14)] {
-        let Some(listed) = geng(nodes, edges) else {
-            return;
-        };
+        let listed = geng(nodes, edges);
         let label = |line: &str| {
             let graph = viewcert::graph::graph6::decode(line.as_bytes()).unwrap();
             Label::of(&graph).unwrap()

@@ -372,6 +372,7 @@ fn poses_that_are_none_are_refused() {
 
 /// COLMAP's merger takes images for the same by name, and aborts if their numbers or features differ.
 #[test]
+#[ignore = "needs data"]
 fn models_of_other_databases_make_the_merger_abort() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
@@ -420,9 +421,7 @@ fn models_of_other_databases_make_the_merger_abort() {
     }
     let line = &merge(at, &["--json"]).json()[0];
     assert_eq!(line["model_merger"], false);
-    let Some(data) = data().map(|data| data.join("turn4/files")) else {
-        return;
-    };
+    let data = data().join("turn4/files");
     let [one, other] = ["merge_a", "merge_other_db"].map(|name| data.join(name));
     let found = verify(&["merge", one.to_str().unwrap(), other.to_str().unwrap()]);
     let words =

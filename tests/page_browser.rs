@@ -1,7 +1,7 @@
 //! `verify draw` through the binary; the page in a real browser without a window.
 
 use crate::common::browser::Browser;
-use crate::common::{Run, cycle, data, verify, verify_with};
+use crate::common::{Run, cycle, data, samples, verify, verify_with};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
@@ -125,13 +125,12 @@ fn agrees(page: &str, report: &Value) {
 const GAPS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/courtyard-gaps.txt");
 
 #[test]
+#[ignore = "needs chromium"]
 fn the_numbers_on_the_page_are_those_of_the_json() {
     let page = Page::of(b"", &[GAPS, "--json", "--components"]);
     let report = page.report();
     assert_eq!(page.run.json(), std::slice::from_ref(&report));
-    let Some(browser) = Browser::find() else {
-        return;
-    };
+    let browser = Browser::find();
     let opened = page.opened(&browser, "");
     agrees(&opened, &report);
     // Four walls with one pair at every corner: 28 photographs, 8 of them at corners.
@@ -159,10 +158,9 @@ fn the_numbers_on_the_page_are_those_of_the_json() {
 }
 
 #[test]
+#[ignore = "needs chromium"]
 fn tables_sort_and_filter() {
-    let Some(browser) = Browser::find() else {
-        return;
-    };
+    let browser = Browser::find();
     // A triangle with a long tail: c9 has one pair, c10 two; numbers sort as numbers.
     let list = "c1 c2\nc1 c3\nc2 c3\nc3 c10\nc10 c9\n";
     let page = Page::of(list.as_bytes(), &["-"]);
@@ -189,6 +187,7 @@ fn tables_sort_and_filter() {
 
 /// A name is text, whatever it holds: with the page's policy, and without it.
 #[test]
+#[ignore = "needs chromium"]
 fn a_hostile_name_does_not_run() {
     let names = [
         "<script>document.title='taken'</script>",
@@ -206,9 +205,7 @@ fn a_hostile_name_does_not_run() {
     let page = Page::of(pairs.as_bytes(), &["-"]);
     let labels = page.report()["components"].to_string();
     assert!(labels.contains("</title></svg><svg onload"), "{labels}");
-    let Some(browser) = Browser::find() else {
-        return;
-    };
+    let browser = Browser::find();
     let text = page.text();
     let (before, rest) = text.split_once("<meta http-equiv").unwrap();
     let (_, after) = rest.split_once('>').unwrap();
@@ -230,10 +227,9 @@ fn a_hostile_name_does_not_run() {
 
 /// Parts that a report may have besides are shown as they stand in the JSON.
 #[test]
+#[ignore = "needs chromium"]
 fn further_parts_are_shown() {
-    let Some(browser) = Browser::find() else {
-        return;
-    };
+    let browser = Browser::find();
     let page = Page::of(cycle(4).as_bytes(), &["-"]);
     let weak = r#""weak":{"asked":"pairs","found":[{"pair":"x-y","inliers":3},{"pair":"x-z","inliers":12}]}"#;
     let text = page.text();
@@ -262,13 +258,10 @@ fn further_parts_are_shown() {
 
 /// Pages of graphs as they are: one by one, and drawn by components.
 #[test]
+#[ignore = "needs data and chromium"]
 fn real_graphs_have_pages() {
-    let Some(folder) = data() else {
-        return;
-    };
-    let Some(browser) = Browser::find() else {
-        return;
-    };
+    let folder = data();
+    let browser = Browser::find();
     for (name, detailed) in [("Tower_of_London", true), ("Roman_Forum", false)] {
         let path = folder.join(format!("table3/{name}.mat"));
         let page = Page::of(b"", &[path.to_str().unwrap()]);
@@ -310,14 +303,13 @@ fn tracks() -> String {
 /// Pairs that the rest does not check in full are lines of their own over the picture, by surplus, and
 /// rows of a table.
 #[test]
+#[ignore = "needs chromium"]
 fn surplus_is_drawn_over_the_picture() {
     let graph = b"a b\na c\na d\nb c\nb d\nc d\na two\nb two\na one\n";
     let page = Page::of(graph, &["-", "--json", "--components", "--surplus"]);
     let report = page.report();
     assert_eq!(report["surplus"]["items"].as_array().unwrap().len(), 3);
-    let Some(browser) = Browser::find() else {
-        return;
-    };
+    let browser = Browser::find();
     let opened = page.opened(&browser, "");
     let lines = |surplus: u32| {
         let (_, tag) = opened.split_once(&format!("data-surplus=\"{surplus}\""))?;
@@ -338,6 +330,7 @@ fn surplus_is_drawn_over_the_picture() {
 /// Two triangles with one camera and a pair that hangs on: with two calibrated cameras in each triangle
 /// both are metric, and nothing is known of what hangs on (theory, Theorem 17.3).
 #[test]
+#[ignore = "needs chromium"]
 fn intrinsics_are_drawn_over_the_picture() {
     let folder = tempfile::tempdir().unwrap();
     let classes = folder.path().join("classes.txt");
@@ -352,9 +345,7 @@ fn intrinsics_are_drawn_over_the_picture() {
     let page = Page::of(b"a b\na c\nb c\nc d\nc e\nd e\ne f\n", &asked);
     let report = page.report();
     assert_eq!(report["intrinsics"]["verdict"], "not-metric");
-    let Some(browser) = Browser::find() else {
-        return;
-    };
+    let browser = Browser::find();
     let opened = page.opened(&browser, "");
     agrees(&opened, &report);
     let lines = |part: &str| {
@@ -385,6 +376,7 @@ fn intrinsics_are_drawn_over_the_picture() {
 
 /// A page of cameras and points: its numbers are those of the JSON, and of the graph by hand.
 #[test]
+#[ignore = "needs chromium"]
 fn cameras_and_points_have_a_page() {
     let asked = [
         "-",
@@ -401,9 +393,7 @@ fn cameras_and_points_have_a_page() {
     let report = page.report();
     // With what was asked for: the page shows it, and nothing else.
     assert_eq!(page.run.json(), std::slice::from_ref(&report));
-    let Some(browser) = Browser::find() else {
-        return;
-    };
+    let browser = Browser::find();
     let opened = page.opened(&browser, "");
     agrees(&opened, &report);
     let facts = facts(&opened);
@@ -450,19 +440,16 @@ fn cameras_and_points_have_a_page() {
 
 /// A database as it is, with a hinge between its two groups.
 #[test]
+#[ignore = "needs samples and chromium"]
 fn tracks_of_a_database_have_a_page() {
-    let Some(folder) = data() else {
-        return;
-    };
-    let Some(browser) = Browser::find() else {
-        return;
-    };
+    let folder = samples();
+    let browser = Browser::find();
     for (name, parts, hinges) in [
         ("clusters_shared_image", 2, "1"),
         ("real_sceaux_421", 1, "0"),
         ("names", 1, "0"),
     ] {
-        let path = folder.join(format!("colmap/{name}.db"));
+        let path = folder.join(format!("{name}.db"));
         let page = Page::of(b"", &[path.to_str().unwrap(), "--tracks", "--suggest"]);
         let report = page.report();
         let opened = page.opened(&browser, "");
