@@ -1,6 +1,6 @@
 //! What the program makes of files that others wrote: read as what they mean, or refused by name.
 
-use crate::common::{Run, absent, data, verify, verify_with};
+use crate::common::{Run, data, verify, verify_with};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -184,13 +184,9 @@ fn no_list_is_misread() {
 
 /// Files that were taken for other graphs once, and those of programs whose lists are read.
 #[test]
+#[ignore = "needs data"]
 fn tables_of_something_else_are_no_graphs() {
-    let Some(files) = data().map(|data| data.join("turn4/files")) else {
-        return;
-    };
-    if !files.is_dir() {
-        return absent("the files of other programs are not there");
-    }
+    let files = data().join("turn4/files");
     for (file, phrase) in [
         ("pd01_from1.csv", "as pandas writes them"),
         ("head_camera-point.csv", "the head `camera,point`"),

@@ -2,7 +2,7 @@
 //! places that it says everything hangs on.
 
 use crate::common::schema::{schema, valid};
-use crate::common::{samples, verify};
+use crate::common::{data, samples, verify};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
@@ -423,10 +423,9 @@ fn parts_without_base_lines_are_said() {
 /// Ten photographs of a panorama: all pairs are planar or panoramic, with rays 0.1 degrees apart. pycolmap
 /// 4.2.1 makes no model, in neither mapper.
 #[test]
+#[ignore = "needs data and samples"]
 fn a_panorama_determines_nothing() {
-    let Some(path) = data().map(|data| data.join("turn4/photos/pano.db")) else {
-        return;
-    };
+    let path = data().join("turn4/photos/pano.db");
     let path = path.to_str().unwrap();
     let (line, code) = overview(path);
     assert_eq!((code, &line["determined"]), (1, &json!(false)));
@@ -445,9 +444,7 @@ fn a_panorama_determines_nothing() {
             .contains("note 27 used pairs (planar or panoramic) have no base line that shows")
     );
     // The rays of a wall are farther apart.
-    let Some(wall) = sample("photos_banana.db") else {
-        return;
-    };
+    let wall = sample("photos_banana.db");
     let (line, _) = overview(wall.to_str().unwrap());
     assert!(line.get("without_base_line").is_none(), "{line}");
 }
