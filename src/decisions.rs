@@ -2,18 +2,21 @@
 
 use super::certificates::Target;
 use super::given::{Beside, read_beside};
+use super::input::{Reading, SIDE_BY_SIDE};
 use super::plan::{Form, Plan, Products};
 use super::witness;
 use super::{here, input, intrinsics};
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Error, Result, ensure};
+use std::borrow::Cow;
 use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
 use viewcert::Known;
 use viewcert::decide as verdict;
-use viewcert::decide::{Options, Value, Verdict};
+use viewcert::decide::{CountSolutions, Value, Verdict};
 use viewcert::here::{Centres, Here};
 use viewcert::intrinsics::{Certified, Sensors};
+use viewcert::watch::Watch;
 use viewcert_advice::priors::Priors;
 use viewcert_advice::{Advice, Shapes};
 use viewcert_formats::NamedGraph;
@@ -26,14 +29,16 @@ use viewcert_report::motion_picture::{self, Frames};
 use viewcert_report::priors::PriorsLine;
 use viewcert_report::{Report, WrittenProof};
 use viewcert_report::{json, page};
-use viewcert_session::exit::{GOOD, NOT};
+use viewcert_session::exit::{GOOD, NOT, ends_run};
 use viewcert_session::{Outputs, Session, outputs};
 
-/// Decides every graph in turn; a bad one is reported and does not stop the others.
+/// Decides every graph, many of them side by side, and reports in their order; a bad one has its record too and
+/// does not stop the others.
 pub(super) fn run(session: &Session, plan: &Plan) -> Result<u8> {
     let mut out = outputs::text(&plan.products.files().map(|(_, path)| path));
+    let counted = plan.draft.solutions != CountSolutions::Off;
     let table = match plan.form {
-        Form::Table(format) => Some(Table::begin(&mut out, format, &plan.graphs)),
+        Form::Table(format) => Some(Table::begin(&mut out, format, &plan.graphs, counted)),
         Form::Text | Form::Json => None,
     };
     let mut work = Work {
@@ -44,27 +49,30 @@ pub(super) fn run(session: &Session, plan: &Plan) -> Result<u8> {
         table: table.transpose().context("standard output")?,
     };
     let too_many = |what: &str| plan.too_many(what);
-    let each = |out: &mut _, input: &NamedGraph, start| {
-        let (input, known) = match read_beside(plan.given.as_deref(), input, plan.draft.model)? {
-            Beside::Known(input, known) => (input, known),
-            Beside::Cameras(input, centres) => {
-                ensure!(
-                    !matches!(plan.form, Form::Table(_)),
-                    "--table: a row does not say what holds at given cameras; leave out one of the two"
-                );
-                let options = plan.options(Known::default())?.watch(session.shown_watch());
-                let besides = Some(Besides::Cameras(&centres));
-                let is_determined = work.decide(&options, &input, besides, start, out)?;
-                return Ok(if is_determined { GOOD } else { NOT });
+    let read = input::reader(&plan.read);
+    let inputs = Reading::new(session, &read, &plan.graphs, &too_many);
+    let ahead = |input: &NamedGraph, watch: &Watch| Decided::new(plan, input, watch);
+    let code = inputs.for_each(SIDE_BY_SIDE, &mut out, &ahead, |out, _, input, start| {
+        let (name, done) = match input {
+            Err(error) => (error.input(), Err(error.into())),
+            Ok(((input, _), found)) => {
+                let name = input.name.clone();
+                let done = found.and_then(|mut found| {
+                    let input = found.changed.take().unwrap_or(input);
+                    work.report(&found, &input, start, out)
+                });
+                (name, done)
             }
         };
-        let options = plan.options(known)?.watch(session.shown_watch());
-        let (input, sensors) = intrinsics::read(plan.intrinsics.as_ref(), input)?;
-        let besides = sensors.as_ref().map(Besides::Sensors);
-        let is_determined = work.decide(&options, &input, besides, start, out)?;
-        Ok(if is_determined { GOOD } else { NOT })
-    };
-    let code = input::for_each(session, &plan.read, &plan.graphs, &too_many, &mut out, each)?;
+        match done {
+            Err(error) if !ends_run(&error) => {
+                work.failed(out, &name, &error)?;
+                Err(error)
+            }
+            Err(error) => Err(error),
+            Ok(is_determined) => Ok(if is_determined { GOOD } else { NOT }),
+        }
+    })?;
     if let Some(table) = work.table {
         table.end(&mut out).context("standard output")?;
         out.flush().context("standard output")?;
@@ -73,12 +81,67 @@ pub(super) fn run(session: &Session, plan: &Plan) -> Result<u8> {
 }
 
 /// What is asked about beside the verdict on a graph, on which the exit code rests then.
-#[derive(Clone, Copy)]
-enum Besides<'a> {
+enum Besides {
+    /// Nothing.
+    Nothing,
     /// Cameras of its nodes.
-    Cameras(&'a Centres),
+    Cameras(Centres),
     /// The sensors of its nodes, with their classes.
-    Sensors(&'a Sensors),
+    Sensors(Sensors),
+}
+
+/// A graph of a run, decided.
+struct Decided {
+    /// The graph, if what is given beside it left notes.
+    changed: Option<NamedGraph>,
+    besides: Besides,
+    verdict: Verdict,
+}
+
+impl Decided {
+    /// Decides a graph, with what the plan gives beside it.
+    ///
+    /// # Errors
+    /// What cannot be asked of it; no verdict.
+    fn new(plan: &Plan, input: &NamedGraph, watch: &Watch) -> Result<Self> {
+        let (input, known, besides) = match read_beside(
+            plan.given.as_deref(),
+            input,
+            plan.draft.model,
+        )? {
+            Beside::Known(input, known) => {
+                let (input, sensors) = intrinsics::read(plan.intrinsics.as_ref(), input)?;
+                (
+                    input,
+                    known,
+                    sensors.map_or(Besides::Nothing, Besides::Sensors),
+                )
+            }
+            Beside::Cameras(input, centres) => {
+                ensure!(
+                    !matches!(plan.form, Form::Table(_)),
+                    "--table: a row does not say what holds at given cameras; leave out one of the two"
+                );
+                (
+                    Cow::Owned(input),
+                    Known::default(),
+                    Besides::Cameras(centres),
+                )
+            }
+        };
+        let options = plan.options(known)?.watch(watch.clone());
+        let verdict =
+            verdict::decide(&input.graph, &options).with_context(|| input.name.clone())?;
+        let changed = match input {
+            Cow::Borrowed(_) => None,
+            Cow::Owned(input) => Some(input),
+        };
+        Ok(Self {
+            changed,
+            besides,
+            verdict,
+        })
+    }
 }
 
 /// What has a certificate of its own kind.
@@ -98,36 +161,34 @@ struct Work<'a> {
 }
 
 impl Work<'_> {
-    /// Decides one graph that has been read since `start`, certifies and reports. Returns whether it
+    /// Certifies and reports one graph, reading and deciding which began at `start`. Returns whether it
     /// determines the cameras, if need be with base lines that frames share; if that is asked for, whether
     /// it does in the plane; and if cameras are given, whether it does at these.
-    fn decide(
+    fn report(
         &mut self,
-        options: &Options,
+        Decided {
+            besides, verdict, ..
+        }: &Decided,
         input: &NamedGraph,
-        besides: Option<Besides>,
         start: Instant,
         out: &mut impl Write,
     ) -> Result<bool> {
         let (session, plan) = (self.session, self.plan);
         let name = || input.name.clone();
-        let decided = verdict::decide(&input.graph, options);
-        session.hide();
-        let verdict = decided.with_context(name)?;
-        let scope = Scope::new(input, &verdict, plan.asked, &session.shown_watch());
+        let scope = Scope::new(input, verdict, plan.asked, &session.shown_watch());
         session.hide();
         let mut scope = scope.with_context(name)?;
         let mut certified = None;
-        if let Some(Besides::Sensors(sensors)) = besides {
+        if let Besides::Sensors(sensors) = besides {
             let certify = self.target.is_some();
             let watch = session.shown_watch();
-            let found = intrinsics::decide(input, &verdict, sensors, (plan.seed, certify), &watch);
+            let found = intrinsics::decide(input, verdict, sensors, (plan.seed, certify), &watch);
             session.hide();
             let (metric, evidence) = found.with_context(name)?;
             let mut line = IntrinsicsLine::new(input, sensors, &metric, plan.list_components);
             if let Some(most) = plan.priors {
                 let (graph, seed) = (&input.graph, plan.seed);
-                let priors = Priors::new(graph, &verdict, sensors, &metric, seed, &watch);
+                let priors = Priors::new(graph, verdict, sensors, &metric, seed, &watch);
                 session.hide();
                 let priors = &priors.with_context(name)?;
                 let most = most as usize;
@@ -137,7 +198,7 @@ impl Work<'_> {
             certified = evidence;
         }
         let centres = match besides {
-            Some(Besides::Cameras(centres)) => Some(centres),
+            Besides::Cameras(centres) => Some(centres),
             _ => None,
         };
         let here = centres.map(|centres| {
@@ -151,9 +212,9 @@ impl Work<'_> {
             (_, Some(certified)) => Some(OwnCertificate::Intrinsics(certified)),
             _ => None,
         };
-        let written = self.write(input, &verdict, &scope, own)?;
+        let written = self.write(input, verdict, &scope, own)?;
         let time = start.elapsed();
-        let advice = self.advise(input, &verdict);
+        let advice = self.advise(input, verdict);
         session.hide();
         let advice = advice.with_context(name)?;
         let is_drawn = plan.products.page.is_some() || plan.products.picture.is_some();
@@ -163,7 +224,7 @@ impl Work<'_> {
         };
         let report = Report {
             input,
-            verdict: &verdict,
+            verdict,
             rational: plan.is_rational(),
             list_components: plan.list_components,
             time,
@@ -172,7 +233,7 @@ impl Work<'_> {
             proof: written.proof.as_ref(),
             here: here.as_ref().map(|(here, centres)| HereReport {
                 input,
-                verdict: &verdict,
+                verdict,
                 here,
                 centres,
                 motions: &motions,
@@ -205,6 +266,19 @@ impl Work<'_> {
                     || base_lines.is_some_and(BaseLines::is_determined)
             }
         })
+    }
+
+    /// The record of a graph that has no answer; of a single one what standard error says is enough.
+    fn failed(&mut self, out: &mut impl Write, name: &str, error: &Error) -> Result<()> {
+        let why = format!("{error:#}");
+        let why = why.strip_prefix(&format!("{name}: ")).unwrap_or(&why);
+        match (&mut self.table, &self.plan.form) {
+            (Some(table), _) => table.failed(out, name, why),
+            (None, Form::Json) => json::write_failed(out, name, why),
+            (None, _) if self.plan.graphs == [Path::new(name)] => return Ok(()),
+            (None, _) => writeln!(out, "{name}\n  error       {why}"),
+        }
+        .context("standard output")
     }
 
     /// Writes the certificate, the proof and the witness.

@@ -1,10 +1,12 @@
 //! How graphs are read: the options that all commands with graphs share.
 
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, ensure};
 use clap::{Args, ValueEnum};
+use rayon::prelude::*;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::time::{Duration, Instant};
+use viewcert::watch::Watch;
 use viewcert_formats::colmap::{Database, Pipeline};
 use viewcert_formats::documents::Document;
 use viewcert_formats::{
@@ -222,12 +224,17 @@ pub(super) fn for_each<W: Write>(
     out: &mut W,
     mut each: impl FnMut(&mut W, &NamedGraph, Instant) -> Result<u8>,
 ) -> Result<u8> {
-    let read = |path: &Path| -> Inputs {
-        let graphs = read_graphs(path, options);
-        Box::new(graphs.map(|graph| graph.map(|graph| (graph, None))))
-    };
+    let read = reader(options);
     let each = |out: &mut W, _: &Path, input: Result<Input, _>, start| each(out, &input?.0, start);
     for_each_read(session, &read, paths, too_many, out, each)
+}
+
+/// How graphs are read with these options.
+pub(super) fn reader(options: &ReadOptions) -> impl Fn(&Path) -> Inputs {
+    move |path: &Path| {
+        let graphs = read_graphs(path, options);
+        Box::new(graphs.map(|graph| graph.map(|graph| (graph, None))))
+    }
 }
 
 /// A graph, and the database that it is of, if that is open for more.
@@ -249,46 +256,237 @@ pub(super) fn for_each_read<W: Write>(
     out: &mut W,
     mut each: impl FnMut(&mut W, &Path, Result<Input, ReadError>, Instant) -> Result<u8>,
 ) -> Result<u8> {
-    let mut code = GOOD;
-    for path in paths {
-        let mut bad = 0;
-        let mut start = Instant::now();
-        session.reading(path);
-        let mut graphs = read(path).peekable();
-        while let Some(input) = graphs.next() {
-            if let Some(reason) = too_many(&format!("several in {}", path.display()))
-                && graphs.peek().is_some()
-            {
-                bail!(reason);
-            }
-            session.hide();
-            bad += usize::from(input.is_err());
-            let shown = input.is_ok() || bad <= MOST_ERRORS;
-            if let Ok((graph, _)) = &input {
-                session.doing(format!("working on {}", graph.name));
-            }
-            code = code.max(match each(out, path, input, start) {
-                Ok(code) => code,
-                Err(error) if ends_run(&error) => return Err(error),
-                Err(error) => {
-                    if shown {
-                        writeln!(std::io::stderr(), "verify: {error:#}")?;
-                    }
-                    session.exit_code(&error)
-                }
-            });
-            out.flush().context("standard output")?;
-            session.reading(path);
-            start = Instant::now();
+    let inputs = Reading::new(session, read, paths, too_many);
+    let ahead = |_: &NamedGraph, _: &Watch| ();
+    inputs.for_each(1, out, &ahead, |out, path, input, start| {
+        each(out, path, input.map(|(input, ())| input), start)
+    })
+}
+
+/// Most graphs that are decided side by side, and pairs in these.
+pub(super) const SIDE_BY_SIDE: usize = 256;
+const MANY_PAIRS: usize = 1 << 17;
+
+/// What is read in less time is decided together.
+const MOMENT: Duration = Duration::from_millis(50);
+
+/// The inputs of some paths, one after another, while they are read.
+pub(super) struct Reading<'a> {
+    session: &'a Session,
+    read: &'a dyn Fn(&Path) -> Inputs,
+    too_many: &'a dyn Fn(&str) -> Option<String>,
+    paths: std::slice::Iter<'a, PathBuf>,
+    open: Option<(&'a Path, Inputs)>,
+}
+
+/// An input, from which path it is, and how long reading it took.
+struct Read<'a> {
+    path: &'a Path,
+    input: Result<Input, ReadError>,
+    time: Duration,
+}
+
+impl Read<'_> {
+    fn graph(&self) -> Option<&NamedGraph> {
+        let (graph, _) = self.input.as_ref().ok()?;
+        Some(graph)
+    }
+}
+
+impl<'a> Reading<'a> {
+    /// Of these paths; where `too_many` gives a reason, a second graph in one of them is an error.
+    pub(super) fn new(
+        session: &'a Session,
+        read: &'a dyn Fn(&Path) -> Inputs,
+        paths: &'a [PathBuf],
+        too_many: &'a dyn Fn(&str) -> Option<String>,
+    ) -> Self {
+        Self {
+            session,
+            read,
+            too_many,
+            paths: paths.iter(),
+            open: None,
         }
-        if bad > MOST_ERRORS {
-            let more = counted(bad - MOST_ERRORS, "more line");
+    }
+
+    /// The next input, if there is one.
+    fn next(&mut self) -> Result<Option<Read<'a>>> {
+        let start = Instant::now();
+        self.session.begin_work(Some(Duration::ZERO));
+        loop {
+            if let Some((path, inputs)) = &mut self.open {
+                self.session.reading(path);
+                if let Some(input) = inputs.next() {
+                    let time = start.elapsed();
+                    return Ok(Some(Read { path, input, time }));
+                }
+            }
+            let Some(path) = self.paths.next() else {
+                return Ok(None);
+            };
+            self.session.reading(path);
+            let mut inputs = (self.read)(path);
+            if let Some(reason) = (self.too_many)(&format!("several in {}", path.display())) {
+                let first = inputs.next();
+                let second = first.as_ref().and_then(|_| inputs.next());
+                ensure!(second.is_none(), reason);
+                inputs = Box::new(first.into_iter());
+            }
+            self.open = Some((path, inputs));
+        }
+    }
+
+    /// Whether asking for the next one may take long, as somebody has to write it first.
+    fn waits(&self) -> bool {
+        let is_input = |(path, _): &(&Path, _)| *path == Path::new("-");
+        self.open.as_ref().is_some_and(is_input) && !is_there()
+    }
+
+    /// What is decided side by side: so many graphs at most.
+    fn batch(&mut self, most: usize) -> Result<Vec<Read<'a>>> {
+        let (start, mut pairs, mut batch) = (Instant::now(), 0, Vec::new());
+        while batch.len() < most && pairs < MANY_PAIRS && start.elapsed() < MOMENT {
+            if !batch.is_empty() && self.waits() {
+                break;
+            }
+            let Some(read) = self.next()? else { break };
+            if let Some(graph) = read.graph() {
+                pairs += graph.graph.edges().len();
+            }
+            batch.push(read);
+        }
+        Ok(batch)
+    }
+
+    /// Does `ahead` with up to `most` graphs side by side, each within the time limit, and then calls `each`
+    /// for them in their order.
+    ///
+    /// # Errors
+    /// As of [`InputArguments::for_each`].
+    pub(super) fn for_each<W: Write, T: Send>(
+        mut self,
+        most: usize,
+        out: &mut W,
+        ahead: &(impl Fn(&NamedGraph, &Watch) -> T + Sync),
+        mut each: impl FnMut(&mut W, &Path, Result<(Input, T), ReadError>, Instant) -> Result<u8>,
+    ) -> Result<u8> {
+        let session = self.session;
+        let (mut code, mut bad) = (GOOD, BadLines::default());
+        // The first answers come at once.
+        let mut size = 1;
+        loop {
+            let batch = self.batch(size.min(most))?;
+            if batch.is_empty() {
+                bad.end()?;
+                return Ok(code);
+            }
+            size = 2 * size.min(SIDE_BY_SIDE);
+            let found = done_ahead(session, &batch, ahead);
+            for (Read { path, input, time }, found) in batch.into_iter().zip(found) {
+                bad.count(path, input.is_err())?;
+                let taken = found.as_ref().map_or(time, |(_, longer)| time + *longer);
+                session.begin_work(Some(taken));
+                let start = Instant::now();
+                let start = start.checked_sub(taken).unwrap_or(start);
+                let input = input.map(|input| {
+                    session.doing(format!("working on {}", input.0.name));
+                    (input, found.expect("what is a graph was done ahead").0)
+                });
+                session.hide();
+                code = code.max(match each(out, path, input, start) {
+                    Ok(code) => code,
+                    Err(error) if ends_run(&error) => return Err(error),
+                    Err(error) => {
+                        if bad.of_path <= MOST_ERRORS {
+                            writeln!(std::io::stderr(), "verify: {error:#}")?;
+                        }
+                        session.exit_code(&error)
+                    }
+                });
+                out.flush().context("standard output")?;
+            }
+        }
+    }
+}
+
+/// What comes of each graph of a batch, and how long it took.
+fn done_ahead<T: Send>(
+    session: &Session,
+    batch: &[Read],
+    ahead: &(impl Fn(&NamedGraph, &Watch) -> T + Sync),
+) -> Vec<Option<(T, Duration)>> {
+    let done = |graph: &NamedGraph, watch: &Watch| {
+        let start = Instant::now();
+        (ahead(graph, watch), start.elapsed())
+    };
+    if let [read] = batch {
+        let Some(graph) = read.graph() else {
+            return vec![None];
+        };
+        session.doing(format!("working on {}", graph.name));
+        session.begin_work(Some(read.time));
+        return vec![Some(done(graph, &session.shown_watch()))];
+    }
+    session.begin_work(None);
+    let of_one = |graph: &NamedGraph| done(graph, &session.watch_of_one());
+    let graphs: Vec<Option<&NamedGraph>> = batch.iter().map(Read::graph).collect();
+    graphs
+        .into_par_iter()
+        .map(|graph| graph.map(of_one))
+        .collect()
+}
+
+/// Counts the lines of a path that cannot be read, of which the first are printed.
+#[derive(Default)]
+struct BadLines<'a> {
+    path: Option<&'a Path>,
+    of_path: usize,
+}
+
+impl<'a> BadLines<'a> {
+    /// One more input of a path.
+    fn count(&mut self, path: &'a Path, is_bad: bool) -> Result<()> {
+        if self.path != Some(path) {
+            self.end()?;
+            *self = Self {
+                path: Some(path),
+                of_path: 0,
+            };
+        }
+        self.of_path += usize::from(is_bad);
+        Ok(())
+    }
+
+    /// Says how many were not printed.
+    fn end(&self) -> Result<()> {
+        if let Some(path) = self.path
+            && self.of_path > MOST_ERRORS
+        {
+            let more = counted(self.of_path - MOST_ERRORS, "more line");
             let path = path.display();
             writeln!(
                 std::io::stderr(),
                 "verify: {path}: {more} cannot be read either"
             )?;
         }
+        Ok(())
     }
-    Ok(code)
+}
+
+/// Whether standard input has something to read now, or has ended.
+#[cfg(unix)]
+fn is_there() -> bool {
+    use rustix::event::{PollFd, PollFlags, Timespec, poll};
+    let input = std::io::stdin();
+    let now = Timespec {
+        tv_sec: 0,
+        tv_nsec: 0,
+    };
+    poll(&mut [PollFd::new(&input, PollFlags::IN)], Some(&now)) != Ok(0)
+}
+
+#[cfg(not(unix))]
+fn is_there() -> bool {
+    false
 }

@@ -43,10 +43,11 @@ pub(super) struct VerifyArguments {
     planar: bool,
     #[command(flatten)]
     intrinsics: IntrinsicsArguments,
-    /// Count the solutions of graphs that are finite solvable, over the complex numbers.
+    /// Count the solutions of graphs that are finite solvable, over the complex numbers [default: quick, with
+    /// --table off].
     #[arg(long, value_enum, value_name = "HOW", num_args = 0..=1, require_equals = true)]
-    #[arg(default_value = "quick", default_missing_value = "quick")]
-    solutions: Solutions,
+    #[arg(default_missing_value = "quick")]
+    solutions: Option<Solutions>,
     /// Write a certificate to this file, or for every graph to this folder (`-`: to standard output, and
     /// the report to standard error).
     ///
@@ -57,7 +58,8 @@ pub(super) struct VerifyArguments {
     /// Write the explicit proof to this file: what `viewcert-proved` verifies (docs/proof.md).
     #[arg(long, value_name = "FILE")]
     proof: Option<PathBuf>,
-    /// Print a line a graph and a summary (csv: without it; latex: as a table).
+    /// Print a line a graph, with its solutions if --solutions counts them, and a summary (csv: without it;
+    /// latex: as a table).
     #[arg(long, value_enum, value_name = "FORMAT", num_args = 0..=1, require_equals = true)]
     #[arg(default_missing_value = "text")]
     #[arg(conflicts_with_all = ["json", "components", "planar", "tracks"])]
@@ -135,9 +137,11 @@ impl VerifyArguments {
             };
         }
         plan.draft.solutions = match self.solutions {
-            Solutions::Quick => CountSolutions::Quick,
-            Solutions::Full => CountSolutions::Full,
-            Solutions::Off => CountSolutions::Off,
+            // A table counts what it shows.
+            None if self.table.is_some() => CountSolutions::Off,
+            None | Some(Solutions::Quick) => CountSolutions::Quick,
+            Some(Solutions::Full) => CountSolutions::Full,
+            Some(Solutions::Off) => CountSolutions::Off,
         };
         if let Some(prime) = self.prime {
             let field = PrimeField::new(prime).with_context(|| format!("--prime={prime}"))?;

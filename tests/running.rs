@@ -55,14 +55,36 @@ fn house() -> String {
 }
 
 #[test]
-fn a_time_limit_ends_the_run_and_says_where() {
+fn a_time_limit_is_for_each_graph_and_says_where() {
     let folder = tempfile::tempdir().unwrap();
     let graph = two_cycles(folder.path(), 6000);
-    let (run, time) = timed(&[&graph, &house(), "--time-limit", "1s"]);
-    assert_eq!(run.code, 3, "{}", run.err);
+    let (run, time) = timed(&[&graph, "--time-limit", "1s"]);
+    assert_eq!((run.code, &*run.out), (3, ""), "{}", run.err);
     assert!(time >= Duration::from_secs(1) && time < LATE, "{time:?}");
-    // The limit is one for the whole run: the second graph is not looked at.
-    assert_eq!(run.out, "");
+    // What comes before and behind a graph that takes too long is decided, alone and side by side.
+    let house = house();
+    let others = [&house, &graph, &house, &house, &graph, &house].map(String::as_str);
+    let run = verify(&[&others[..], &["--json", "--time-limit", "1s"]].concat());
+    let records: Vec<serde_json::Value> = run
+        .out
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect();
+    let names: Vec<&str> = records
+        .iter()
+        .map(|record| record["graph"]["name"].as_str().unwrap())
+        .collect();
+    assert_eq!((run.code, names), (3, others.to_vec()), "{}", run.err);
+    for (record, path) in records.iter().zip(others) {
+        let why = record["error"].as_str().unwrap_or_default();
+        assert_eq!(
+            why.starts_with("the time limit was reached at the core of "),
+            *path == graph,
+            "{record}"
+        );
+        assert_eq!(record["verdict"].is_string(), *path != graph, "{record}");
+    }
+    let run = verify(&[&graph, "--time-limit", "1s"]);
     assert_eq!(run.err.lines().count(), 1, "{}", run.err);
     assert!(run.err.contains(&graph), "{}", run.err);
     assert!(

@@ -1,6 +1,7 @@
 //! `verify --table`: many graphs, a line each, and a summary.
 
 use crate::common::{data, verify, verify_with};
+use std::collections::BTreeMap;
 
 /// The complete graph with 4 nodes, and the square.
 const LIST: &[u8] = b"C~\nCl\n";
@@ -23,7 +24,10 @@ fn a_line_each_and_a_summary() {
         cells(lines[2])[1..9],
         ["4", "67", "%", "4", "4", "not", "finite", "solvable"]
     );
-    assert_eq!(cells(lines[3])[..6], ["house", "5", "60", "%", "6", "4"]);
+    assert_eq!(
+        cells(lines[3])[..6],
+        ["examples/house.txt", "5", "60", "%", "6", "4"]
+    );
     let summary = "3 graphs: 1 solvable, 2 not finite solvable; 9 components, ";
     assert!(lines[4].starts_with(summary), "{}", run.out);
     // Columns stand below their heads.
@@ -82,14 +86,229 @@ fn what_does_not_go_with_a_table() {
             run.err
         );
     }
-    // A bad graph is said, and the others stand in the table.
-    let run = verify(&["--table", "/nonexistent", "examples/house.txt"]);
+}
+
+/// The rows of comma-separated values, by their heads.
+fn rows(text: &str) -> Vec<BTreeMap<String, String>> {
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    reader.deserialize().map(Result::unwrap).collect()
+}
+
+/// Two files of one name, a file of many graphs, and what fails: each has its record, in the order and by the
+/// name of the input.
+#[test]
+fn every_input_has_a_record_by_its_own_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    for (name, text) in [
+        ("a", "1 2\n2 3\n3 1\n"),
+        ("b", "1 2\n2 3\n"),
+        ("c", "1 1\n"),
+    ] {
+        std::fs::create_dir(path(name)).unwrap();
+        std::fs::write(path(&format!("{name}/pairs.txt")), text).unwrap();
+    }
+    std::fs::write(path("many.g6"), ">>graph6<<C~\n\u{7f}\nCl\n").unwrap();
+    let inputs = [
+        "a/pairs.txt",
+        "c/pairs.txt",
+        "many.g6",
+        "nothing.txt",
+        "b/pairs.txt",
+    ]
+    .map(path);
+    let many = &inputs[2];
+    let inputs: Vec<&str> = inputs.iter().map(String::as_str).collect();
+    let lines = [1, 2, 3].map(|line| format!("{many}:{line}"));
+    let names = [
+        inputs[0], inputs[1], &lines[0], &lines[1], &lines[2], inputs[3], inputs[4],
+    ];
+    let fails = [false, true, false, true, false, true, false];
+
+    let run = verify(&[&["--table=csv"], &inputs[..]].concat());
+    let found = rows(&run.out);
+    assert_eq!(
+        found.iter().map(|row| &*row["name"]).collect::<Vec<_>>(),
+        names,
+        "{}",
+        run.err
+    );
+    assert_eq!(
+        found
+            .iter()
+            .map(|row| !row["error"].is_empty())
+            .collect::<Vec<_>>(),
+        fails
+    );
+    assert_eq!(
+        found
+            .iter()
+            .map(|row| row["verdict"].is_empty())
+            .collect::<Vec<_>>(),
+        fails
+    );
     assert_eq!(run.code, 2);
     assert!(
-        run.err.contains("/nonexistent") && run.out.contains("1 graph: "),
+        found[1]["error"].contains("paired with itself"),
         "{}",
         run.out
     );
+    assert!(
+        !found[1]["error"].contains(inputs[1]) || found[1]["error"].contains(":1"),
+        "{}",
+        run.out
+    );
+
+    let run = verify(&[&["--json"], &inputs[..]].concat());
+    let found: Vec<serde_json::Value> = run
+        .out
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect();
+    assert_eq!(
+        found
+            .iter()
+            .map(|record| record["graph"]["name"].as_str().unwrap())
+            .collect::<Vec<_>>(),
+        names
+    );
+    assert_eq!(
+        found
+            .iter()
+            .map(|record| record["error"].is_string())
+            .collect::<Vec<_>>(),
+        fails
+    );
+
+    let run = verify(&inputs);
+    let heads: Vec<&str> = run
+        .out
+        .lines()
+        .filter(|line| !line.starts_with(' '))
+        .collect();
+    assert_eq!(heads.len(), names.len(), "{}", run.out);
+    for (head, name) in heads.iter().zip(names) {
+        assert!(head.starts_with(name), "{head}");
+    }
+    assert_eq!(
+        run.out
+            .lines()
+            .filter(|line| line.starts_with("  error "))
+            .count(),
+        3
+    );
+
+    for form in ["--table", "--table=latex"] {
+        let run = verify(&[&[form], &inputs[..]].concat());
+        assert_eq!(
+            run.out.matches("paired with itself").count(),
+            1,
+            "{}",
+            run.out
+        );
+        assert!(
+            run.out.contains("4 graphs: ") && run.out.contains("; 3 without an answer"),
+            "{}",
+            run.out
+        );
+    }
+}
+
+/// Hundreds of graphs side by side: each row is what the graph alone has, in its place.
+#[test]
+fn many_graphs_stand_in_their_order() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("many.g6");
+    // Cycles with chords, of 5 to 24 nodes.
+    let graph = |k: usize| {
+        let nodes = 5 + k % 20;
+        let cycle = (0..nodes).map(|v| (v as u32, ((v + 1) % nodes) as u32));
+        let chords = (0..k % 7).map(|c| (c as u32, ((c + 2) % nodes) as u32));
+        let graph = viewcert::Graph::new(nodes as u32, cycle.chain(chords)).unwrap();
+        viewcert::graph::graph6::encode(&graph) + "\n"
+    };
+    let lines: Vec<String> = (0..600).map(graph).collect();
+    std::fs::write(&path, lines.concat()).unwrap();
+    let name = path.to_str().unwrap();
+    let answer = |row: &BTreeMap<String, String>| {
+        ["nodes", "edges", "verdict", "components"].map(|head| row[head].clone())
+    };
+    let found = rows(&verify(&["--table=csv", name]).out);
+    assert_eq!(found.len(), lines.len());
+    for (k, row) in found.iter().enumerate() {
+        assert_eq!(row["name"], format!("{name}:{}", k + 1));
+    }
+    for k in [0, 1, 2, 63, 64, 255, 256, 599] {
+        let alone = rows(&verify_with(lines[k].as_bytes(), &["--table=csv", "-"]).out);
+        assert_eq!(answer(&found[k]), answer(&alone[0]), "{k}");
+    }
+    // The same from a pipe.
+    let piped = rows(&verify_with(lines.concat().as_bytes(), &["--table=csv", "-"]).out);
+    assert_eq!(
+        piped.iter().map(answer).collect::<Vec<_>>(),
+        found.iter().map(answer).collect::<Vec<_>>()
+    );
+}
+
+/// Whoever writes one graph at a time and waits for its answer gets it.
+#[test]
+#[cfg(unix)]
+fn answers_do_not_wait_for_the_next_graph() {
+    use std::io::{BufRead, BufReader, Write};
+    use std::process::{Command, Stdio};
+    let mut child = Command::new(env!("CARGO_BIN_EXE_verify"))
+        .args(["--json", "--format", "graph6", "-"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let (mut input, output) = (child.stdin.take().unwrap(), child.stdout.take().unwrap());
+    let mut answers = BufReader::new(output).lines();
+    for line in 1..6 {
+        input.write_all(b"C~\n").unwrap();
+        let answer = answers.next().unwrap().unwrap();
+        assert!(answer.contains(&format!("\"-:{line}\"")), "{answer}");
+    }
+    drop(input);
+    assert!(answers.next().is_none());
+    assert_eq!(child.wait().unwrap().code(), Some(0));
+}
+
+/// A published graph with two solutions: they are counted where the table shows them.
+#[test]
+fn a_table_counts_what_it_shows() {
+    let list = b"C~\nHBQkcP_\nCl\n";
+    let found = rows(&verify_with(list, &["--table=csv", "-"]).out);
+    let verdicts: Vec<&str> = found.iter().map(|row| &*row["verdict"]).collect();
+    assert_eq!(
+        verdicts,
+        ["solvable", "finite solvable", "not finite solvable"]
+    );
+    assert!(!found[0].contains_key("solutions"));
+    for how in ["--solutions", "--solutions=full"] {
+        let run = verify_with(list, &["--table=csv", how, "-"]);
+        let counts: Vec<String> = rows(&run.out)
+            .iter()
+            .map(|row| row["solutions"].clone())
+            .collect();
+        assert_eq!(
+            (counts[0].as_str(), counts[2].as_str()),
+            ("1", ""),
+            "{}",
+            run.out
+        );
+        assert!(how == "--solutions" || counts[1] == "2", "{}", run.out);
+        assert!(
+            verify_with(list, &["--table", how, "-"])
+                .out
+                .contains("  solutions  ")
+        );
+        assert!(
+            verify_with(list, &["--table=latex", how, "-"])
+                .out
+                .contains("\\#sol.")
+        );
+    }
 }
 
 /// The paper's Table 3 in one command: sizes, densities and components are the published ones.

@@ -5,6 +5,7 @@ use super::AuditArguments;
 use anyhow::{Context, Result, anyhow, bail};
 use std::io::Write;
 use std::path::Path;
+use std::time::Duration;
 use viewcert::decide;
 use viewcert_audit::claims;
 use viewcert_audit::claims::{Claim, Row, Ruling};
@@ -32,6 +33,7 @@ pub(super) fn run(session: &Session, arguments: &AuditArguments, path: &Path) ->
     let mut counts = [0; 4];
     let mut worst = GOOD;
     for (number, row) in (1..).zip(&rows) {
+        session.begin_work(Some(Duration::ZERO));
         let ruled = match decide_again(session, arguments, (number, row), target.as_mut()) {
             Ok(ruled) => ruled,
             Err(error) if ends_run(&error) => return Err(error),

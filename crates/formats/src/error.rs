@@ -20,6 +20,18 @@ pub struct ReadError {
     pub problem: Problem,
 }
 
+impl ReadError {
+    /// What the input is called: its path, and of a file with a graph on every line the line too.
+    pub fn input(&self) -> String {
+        match (&self.problem, &self.place) {
+            (Problem::Graph6(_) | Problem::Sparse6(_), Place::Line(line)) => {
+                format!("{}:{line}", self.file)
+            }
+            _ => self.file.clone(),
+        }
+    }
+}
+
 /// A refusal before the name of the file is known to it.
 #[derive(Debug)]
 pub struct Fault {

@@ -253,6 +253,15 @@ impl From<&Component> for ComponentLine {
     }
 }
 
+/// The record of a graph that has no answer, and why.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_failed(out: &mut impl Write, name: &str, error: &str) -> io::Result<()> {
+    let graph = serde_json::json!({ "name": name });
+    write_line(out, &serde_json::json!({ "graph": graph, "error": error }))
+}
+
 /// Writes the report as one line.
 ///
 /// # Errors

@@ -2,11 +2,10 @@
 
 use super::text::{seconds, strength, value};
 use super::{Report, counted};
-use std::borrow::Cow;
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
-use viewcert::decide::Value;
+use viewcert::decide::{Value, Verdict};
 use viewcert_formats::csv;
 
 /// How a table is written.
@@ -21,7 +20,7 @@ pub enum Format {
 }
 
 /// The columns of comma-separated values.
-const COLUMNS: [&str; 8] = [
+const COLUMNS: [&str; 10] = [
     "name",
     "nodes",
     "density_percent",
@@ -30,6 +29,8 @@ const COLUMNS: [&str; 8] = [
     "strength",
     "components",
     "seconds",
+    "solutions",
+    "error",
 ];
 
 /// A table that is written row by row.
@@ -38,7 +39,10 @@ pub struct Table {
     format: Format,
     /// Width of the names.
     width: usize,
+    /// Whether it says how many solutions there are.
+    counted: bool,
     graphs: usize,
+    failed: usize,
     /// Of each verdict how many, in the order of [`Value::ALL`], and its words.
     counts: [(usize, &'static str); 3],
     components: usize,
@@ -50,31 +54,43 @@ impl Table {
     ///
     /// # Errors
     /// Those of the writer.
-    pub fn begin(out: &mut impl Write, format: Format, files: &[PathBuf]) -> io::Result<Self> {
+    pub fn begin(
+        out: &mut impl Write,
+        format: Format,
+        files: &[PathBuf],
+        counted: bool,
+    ) -> io::Result<Self> {
         let names = files
             .iter()
-            .map(|path| name_of(&path.to_string_lossy()).chars().count());
-        let width = names.max().unwrap_or(0).max(12);
-        match format {
-            Format::Text => writeln!(
-                out,
-                "{:width$}  cameras  density    pairs  components  verdict              strength  time",
-                "graph"
-            )?,
-            Format::Csv => comma_separated(out, COLUMNS)?,
-            Format::Latex => out.write_all(
-                b"\\begin{tabular}{@{}lrrrlcr@{}}\n\\toprule\nName & \\#nodes & \\%density & \\#edges & \
-                  Verdict & \\#comp. & Time [s] \\\\\n\\midrule\n",
-            )?,
-        }
-        Ok(Self {
+            .map(|path| path.to_string_lossy().chars().count());
+        let table = Self {
             format,
-            width,
+            width: names.max().unwrap_or(0).max(12),
+            counted,
             graphs: 0,
+            failed: 0,
             counts: Value::ALL.map(|value| (0, value.name())),
             components: 0,
             time: Duration::ZERO,
-        })
+        };
+        let width = table.width;
+        match format {
+            Format::Text => writeln!(
+                out,
+                "{:width$}  cameras  density    pairs  components  {}verdict              strength  time",
+                "graph",
+                if counted { "solutions  " } else { "" },
+            )?,
+            Format::Csv => table.comma_separated(out, COLUMNS)?,
+            Format::Latex => write!(
+                out,
+                "\\begin{{tabular}}{{@{{}}lrrrlc{0}r@{{}}}}\n\\toprule\nName & \\#nodes & \\%density & \\#edges & \
+                  Verdict & \\#comp.{1} & Time [s] \\\\\n\\midrule\n",
+                if counted { "c" } else { "" },
+                if counted { " & \\#sol." } else { "" },
+            )?,
+        }
+        Ok(table)
     }
 
     /// Writes the row of a graph.
@@ -88,41 +104,52 @@ impl Table {
         let components = verdict.components.len();
         let strength = strength(verdict.value_claim().strength);
         let percent = density(nodes, edges);
-        let name = name_of(&report.input.name);
+        let solutions = solutions(verdict);
+        let name = &*report.input.name;
         let width = self.width;
         match self.format {
             Format::Text => {
                 let time = seconds(report.time.as_micros());
-                writeln!(
+                write!(
                     out,
-                    "{name:width$}  {nodes:>7}  {percent:>5} %  {edges:>7}  {components:>10}  {words:<19}  \
-                     {strength:<8}  {time}"
+                    "{name:width$}  {nodes:>7}  {percent:>5} %  {edges:>7}  {components:>10}  "
                 )?;
+                if self.counted {
+                    write!(out, "{solutions:>9}  ")?;
+                }
+                writeln!(out, "{words:<19}  {strength:<8}  {time}")?;
             }
             Format::Csv => {
                 let seconds = format!("{:.4}", report.time.as_secs_f64());
                 let [nodes, percent, edges, components] =
                     [nodes, percent, edges, components].map(|number| number.to_string());
-                comma_separated(
+                self.comma_separated(
                     out,
                     [
-                        &name,
-                        &nodes[..],
+                        name,
+                        &nodes,
                         &percent,
                         &edges,
                         words,
                         &strength,
                         &components,
                         &seconds,
+                        &solutions,
+                        "",
                     ],
                 )?;
             }
             Format::Latex => {
-                let name = escaped(&name);
+                let name = escaped(name);
                 let seconds = report.time.as_secs_f64();
+                let solutions = if self.counted {
+                    format!(" & {solutions}")
+                } else {
+                    String::new()
+                };
                 writeln!(
                     out,
-                    "{name} & {nodes} & {percent} & {edges} & {words} & {components} & {seconds:.2} \\\\"
+                    "{name} & {nodes} & {percent} & {edges} & {words} & {components}{solutions} & {seconds:.2} \\\\"
                 )?;
             }
         }
@@ -137,6 +164,44 @@ impl Table {
         Ok(())
     }
 
+    /// Writes the row of a graph that has no answer, and why.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn failed(&mut self, out: &mut impl Write, name: &str, why: &str) -> io::Result<()> {
+        self.failed += 1;
+        let width = self.width;
+        match self.format {
+            Format::Text => writeln!(out, "{name:width$}  error: {why}"),
+            Format::Csv => {
+                let mut cells = [""; COLUMNS.len()];
+                (cells[0], cells[COLUMNS.len() - 1]) = (name, why);
+                self.comma_separated(out, cells)
+            }
+            Format::Latex => {
+                let (name, columns) = (escaped(name), if self.counted { 7 } else { 6 });
+                writeln!(
+                    out,
+                    "{name} & \\multicolumn{{{columns}}}{{l}}{{{}}} \\\\",
+                    escaped(why)
+                )
+            }
+        }
+    }
+
+    /// Writes cells, but that of solutions only if they are counted.
+    fn comma_separated(
+        &self,
+        out: &mut impl Write,
+        cells: [&str; COLUMNS.len()],
+    ) -> io::Result<()> {
+        let shown = COLUMNS.iter().zip(cells);
+        let shown = shown.filter(|(head, _)| self.counted || **head != "solutions");
+        let mut row = csv::Writer::commas(out);
+        row.row(shown.map(|(_, cell)| cell))?;
+        row.finish()
+    }
+
     /// Writes the summary: not behind comma-separated values, where it would be a row.
     ///
     /// # Errors
@@ -146,8 +211,12 @@ impl Table {
         let some: Vec<String> = some
             .map(|(count, words)| format!("{count} {words}"))
             .collect();
+        let failed = match self.failed {
+            0 => String::new(),
+            failed => format!("; {failed} without an answer"),
+        };
         let summary = format!(
-            "{}: {}; {}, {}",
+            "{}: {}; {}, {}{failed}",
             counted(self.graphs, "graph"),
             some.join(", "),
             counted(self.components, "component"),
@@ -161,31 +230,23 @@ impl Table {
     }
 }
 
-fn comma_separated(out: &mut impl Write, cells: [&str; 8]) -> io::Result<()> {
-    let mut row = csv::Writer::commas(out);
-    row.row(cells)?;
-    row.finish()
+/// How many solutions there are, or between which bounds, as claims have it; nothing where there are infinitely
+/// many.
+fn solutions(verdict: &Verdict) -> String {
+    let Some(known) = verdict.solutions.as_ref() else {
+        return String::new();
+    };
+    match (&known.at_least, &known.at_most) {
+        (least, Some(most)) if least == most => least.to_string(),
+        (least, Some(most)) => format!("{least}-{most}"),
+        (least, None) => format!("{least}-"),
+    }
 }
 
 /// How many of all possible edges there are, in percent, rounded.
 fn density(nodes: usize, edges: usize) -> usize {
     let all = (nodes * nodes.saturating_sub(1) / 2).max(1);
     (200 * edges + all) / (2 * all)
-}
-
-/// A file without its folder, and without its extension where it is one graph.
-fn name_of(name: &str) -> Cow<'_, str> {
-    let path = Path::new(name);
-    let file = path
-        .file_name()
-        .unwrap_or(path.as_os_str())
-        .to_string_lossy();
-    match file.rsplit_once('.') {
-        Some((stem, extension)) if !stem.is_empty() && !extension.contains(':') => {
-            Cow::Owned(stem.to_owned())
-        }
-        _ => Cow::Owned(file.into_owned()),
-    }
 }
 
 /// A name as LaTeX prints it.
@@ -209,14 +270,6 @@ mod tests {
 
     #[test]
     fn names_and_densities() {
-        for (name, short) in [
-            ("/data/table3/Arts_Quad.mat", "Arts_Quad"),
-            ("list.g6:3", "list.g6:3"),
-            (".hidden", ".hidden"),
-            ("-", "-"),
-        ] {
-            assert_eq!(name_of(name), short);
-        }
         // Gustav Vasa: 110 of 153; Dino 319: 230 of 630.
         let densities = [(18, 110), (36, 230), (2, 1), (1, 0)].map(|(n, m)| density(n, m));
         assert_eq!(densities, [72, 37, 100, 0]);

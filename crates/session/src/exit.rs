@@ -44,11 +44,11 @@ pub fn is_broken_pipe(error: &anyhow::Error) -> bool {
     })
 }
 
-/// Whether an error ends the whole run: not that of a graph, but of the time, by a signal, or since
-/// nobody reads on.
+/// Whether an error ends the whole run: not that of a graph, which has a time limit of its own, but of the
+/// memory, by a signal, or since nobody reads on.
 pub fn ends_run(error: &anyhow::Error) -> bool {
-    is_broken_pipe(error)
-        || stopped(error).is_some_and(|stopped| !matches!(stopped.reason, Reason::TooLarge { .. }))
+    let of_one = |reason: &Reason| matches!(reason, Reason::TooLarge { .. } | Reason::Time);
+    is_broken_pipe(error) || stopped(error).is_some_and(|stopped| !of_one(&stopped.reason))
 }
 
 /// Whether an error means that something is too large, for the method or for the limits of time and

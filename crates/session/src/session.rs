@@ -36,8 +36,11 @@ pub struct Session(Arc<Run>);
 struct Run {
     /// What messages begin with.
     program: &'static str,
+    /// Without a deadline.
     watch: Watch,
     time: Option<Duration>,
+    /// When what is being done now has to end.
+    deadline: Mutex<Option<Instant>>,
     memory: Option<u64>,
     bar: Option<Arc<Bar>>,
     outputs: Outputs,
@@ -89,9 +92,10 @@ impl Session {
         let (time, memory) = (limits.duration(), limits.bytes());
         let run = Arc::new(Run {
             watch: Watch::new(Limits {
-                deadline: time.and_then(|time| Instant::now().checked_add(time)),
+                deadline: None,
                 memory,
             }),
+            deadline: Mutex::new(time.and_then(|time| Instant::now().checked_add(time))),
             program,
             time,
             memory,
@@ -116,9 +120,25 @@ impl Session {
         &self.0.outputs
     }
 
-    /// Its watch.
+    /// Its watch, until the time limit of what is being done now.
     pub fn watch(&self) -> Watch {
-        self.0.watch.clone()
+        self.0.watch.until(*unpoisoned(&self.0.deadline))
+    }
+
+    /// The watch of one of several works that begin side by side: each has the time limit to itself.
+    pub fn watch_of_one(&self) -> Watch {
+        self.0.watch.until(self.deadline(Duration::ZERO))
+    }
+
+    /// From now on the time limit is that of another work, of which so much is done already; or there is none,
+    /// while several are done that have theirs.
+    pub fn begin_work(&self, done: Option<Duration>) {
+        *unpoisoned(&self.0.deadline) = done.and_then(|done| self.deadline(done));
+    }
+
+    fn deadline(&self, done: Duration) -> Option<Instant> {
+        let left = self.0.time?.saturating_sub(done);
+        Instant::now().checked_add(left)
     }
 
     /// Its watch, with the bar if there is a terminal to show it.
@@ -208,10 +228,12 @@ impl Run {
             {
                 self.watch.out_of_memory();
             }
-            match (self.watch.stopped(), since) {
+            let watch = self.watch.until(*unpoisoned(&self.deadline));
+            match (watch.stopped(), since) {
                 (Some(reason), Some(since)) if since.elapsed() >= GRACE => self.end(&reason),
                 (Some(_), None) => since = Some(Instant::now()),
-                _ => (),
+                (Some(_), Some(_)) => (),
+                (None, _) => since = None,
             }
             if let Some(bar) = &self.bar {
                 bar.draw();

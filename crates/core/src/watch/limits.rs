@@ -108,11 +108,13 @@ pub struct Watch {
 /// What a watch shares with its clones.
 #[derive(Debug)]
 pub(super) struct Shared {
+    /// What stops this watch too, and keeps the account of memory.
+    around: Option<Arc<Self>>,
     /// 0, or one of the reasons below.
     stop: AtomicU8,
     pub(super) limits: Limits,
-    /// Bytes of large matrices.
-    pub(super) held: AtomicU64,
+    /// Bytes of large matrices, if nothing is around.
+    held: AtomicU64,
     pub(super) works: AtomicU64,
 }
 
@@ -124,13 +126,22 @@ impl Watch {
     /// A watch with limits, which can be interrupted.
     pub fn new(limits: Limits) -> Self {
         Self {
-            shared: Some(Arc::new(Shared {
-                stop: AtomicU8::new(0),
-                limits,
-                held: AtomicU64::new(0),
-                works: AtomicU64::new(0),
-            })),
+            shared: Some(Arc::new(Shared::new(None, limits))),
             observer: None,
+        }
+    }
+
+    /// A watch for a part of the work: what stops this one stops it, and so does a deadline of its own. The
+    /// memory that both take is one.
+    pub fn until(&self, deadline: Option<Instant>) -> Self {
+        if deadline.is_none() {
+            return self.clone();
+        }
+        let memory = self.shared.as_ref().and_then(|around| around.limits.memory);
+        let limits = Limits { deadline, memory };
+        Self {
+            shared: Some(Arc::new(Shared::new(self.shared.clone(), limits))),
+            observer: self.observer.clone(),
         }
     }
 
@@ -165,6 +176,23 @@ impl Watch {
 }
 
 impl Shared {
+    fn new(around: Option<Arc<Self>>, limits: Limits) -> Self {
+        Self {
+            around,
+            stop: AtomicU8::new(0),
+            limits,
+            held: AtomicU64::new(0),
+            works: AtomicU64::new(0),
+        }
+    }
+
+    /// Bytes of large matrices.
+    pub(super) fn held(&self) -> &AtomicU64 {
+        self.around
+            .as_ref()
+            .map_or(&self.held, |around| around.held())
+    }
+
     fn stop(&self, reason: u8) {
         let _ = self
             .stop
@@ -173,7 +201,10 @@ impl Shared {
 
     #[inline]
     pub(super) fn is_stopped(&self) -> bool {
-        if self.stop.load(Ordering::Relaxed) != 0 {
+        let around = self.around.as_ref();
+        if self.stop.load(Ordering::Relaxed) != 0
+            || around.is_some_and(|around| around.is_stopped())
+        {
             return true;
         }
         let late = self
@@ -189,6 +220,9 @@ impl Shared {
     fn reason(&self) -> Option<Reason> {
         if !self.is_stopped() {
             return None;
+        }
+        if let Some(reason) = self.around.as_ref().and_then(|around| around.reason()) {
+            return Some(reason);
         }
         Some(match self.stop.load(Ordering::Relaxed) {
             INTERRUPTED => Reason::Interrupted,
@@ -224,6 +258,24 @@ mod tests {
             stopped.to_string(),
             "the time limit was reached at the contraction of 9 cameras"
         );
+    }
+
+    #[test]
+    fn a_watch_within_another_has_its_own_deadline_and_its_memory() {
+        let all = Watch::new(Limits {
+            deadline: None,
+            memory: Some(100),
+        });
+        let late = all.until(Some(Instant::now()));
+        assert_eq!(late.stopped(), Some(Reason::Time));
+        assert_eq!(all.stopped(), None, "the others go on");
+        let other = all.until(Some(Instant::now() + Duration::from_secs(3600)));
+        let shared = |watch: &Watch| watch.shared.clone().unwrap();
+        shared(&other).held().fetch_add(7, Ordering::Relaxed);
+        assert_eq!(shared(&all).held().load(Ordering::Relaxed), 7);
+        all.interrupt();
+        assert_eq!(other.stopped(), Some(Reason::Interrupted));
+        assert_eq!(late.stopped(), Some(Reason::Interrupted));
     }
 
     #[test]

@@ -199,7 +199,7 @@ impl Reservation {
             return Ok(());
         };
         let others = shared
-            .held
+            .held()
             .load(Ordering::Relaxed)
             .saturating_sub(self.bytes);
         if let Some(limit) = shared.limits.memory
@@ -217,8 +217,8 @@ impl Reservation {
         }
         // Between the look and this another thread may have taken some; the account is for
         // matrices that are far too large, not for the last byte.
-        shared.held.fetch_add(bytes, Ordering::Relaxed);
-        shared.held.fetch_sub(self.bytes, Ordering::Relaxed);
+        shared.held().fetch_add(bytes, Ordering::Relaxed);
+        shared.held().fetch_sub(self.bytes, Ordering::Relaxed);
         self.bytes = bytes;
         Ok(())
     }
@@ -227,7 +227,7 @@ impl Reservation {
 impl Clone for Reservation {
     fn clone(&self) -> Self {
         if let Some(shared) = &self.shared {
-            shared.held.fetch_add(self.bytes, Ordering::Relaxed);
+            shared.held().fetch_add(self.bytes, Ordering::Relaxed);
         }
         Self {
             shared: self.shared.clone(),
@@ -239,7 +239,7 @@ impl Clone for Reservation {
 impl Drop for Reservation {
     fn drop(&mut self) {
         if let Some(shared) = &self.shared {
-            shared.held.fetch_sub(self.bytes, Ordering::Relaxed);
+            shared.held().fetch_sub(self.bytes, Ordering::Relaxed);
         }
     }
 }
