@@ -258,8 +258,17 @@ impl From<&Component> for ComponentLine {
 /// # Errors
 /// Those of the writer.
 pub fn write_failed(out: &mut impl Write, name: &str, error: &str) -> io::Result<()> {
-    let graph = serde_json::json!({ "name": name });
-    write_line(out, &serde_json::json!({ "graph": graph, "error": error }))
+    #[derive(Serialize)]
+    struct Name<'a> {
+        name: &'a str,
+    }
+    #[derive(Serialize)]
+    struct Failed<'a> {
+        graph: Name<'a>,
+        error: &'a str,
+    }
+    let graph = Name { name };
+    write_line(out, &Failed { graph, error })
 }
 
 /// Writes the report as one line.
