@@ -337,19 +337,10 @@ impl<'a> Reading<'a> {
         }
     }
 
-    /// Whether asking for the next one may take long, as somebody has to write it first.
-    fn waits(&self) -> bool {
-        let is_input = |(path, _): &(&Path, _)| *path == Path::new("-");
-        self.open.as_ref().is_some_and(is_input) && !is_there()
-    }
-
     /// What is decided side by side: so many graphs at most.
     fn batch(&mut self, most: usize) -> Result<Vec<Read<'a>>> {
         let (start, mut pairs, mut batch) = (Instant::now(), 0, Vec::new());
         while batch.len() < most && pairs < MANY_PAIRS && start.elapsed() < MOMENT {
-            if !batch.is_empty() && self.waits() {
-                break;
-            }
             let Some(read) = self.next()? else { break };
             if let Some(graph) = read.graph() {
                 pairs += graph.graph.edges().len();
@@ -472,21 +463,4 @@ impl<'a> BadLines<'a> {
         }
         Ok(())
     }
-}
-
-/// Whether standard input has something to read now, or has ended.
-#[cfg(unix)]
-fn is_there() -> bool {
-    use rustix::event::{PollFd, PollFlags, Timespec, poll};
-    let input = std::io::stdin();
-    let now = Timespec {
-        tv_sec: 0,
-        tv_nsec: 0,
-    };
-    poll(&mut [PollFd::new(&input, PollFlags::IN)], Some(&now)) != Ok(0)
-}
-
-#[cfg(not(unix))]
-fn is_there() -> bool {
-    false
 }

@@ -250,30 +250,6 @@ fn many_graphs_stand_in_their_order() {
     );
 }
 
-/// Whoever writes one graph at a time and waits for its answer gets it.
-#[test]
-#[cfg(unix)]
-fn answers_do_not_wait_for_the_next_graph() {
-    use std::io::{BufRead, BufReader, Write};
-    use std::process::{Command, Stdio};
-    let mut child = Command::new(env!("CARGO_BIN_EXE_verify"))
-        .args(["--json", "--format", "graph6", "-"])
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let (mut input, output) = (child.stdin.take().unwrap(), child.stdout.take().unwrap());
-    let mut answers = BufReader::new(output).lines();
-    for line in 1..6 {
-        input.write_all(b"C~\n").unwrap();
-        let answer = answers.next().unwrap().unwrap();
-        assert!(answer.contains(&format!("\"-:{line}\"")), "{answer}");
-    }
-    drop(input);
-    assert!(answers.next().is_none());
-    assert_eq!(child.wait().unwrap().code(), Some(0));
-}
-
 /// A published graph with two solutions: they are counted where the table shows them.
 #[test]
 fn a_table_counts_what_it_shows() {
