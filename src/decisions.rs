@@ -8,7 +8,7 @@ use super::{here, input, intrinsics};
 use anyhow::{Context, Result, ensure};
 use std::io::Write;
 use std::path::Path;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 use viewcert::Known;
 use viewcert::decide as verdict;
 use viewcert::decide::{Options, Value, Verdict};
@@ -27,7 +27,7 @@ use viewcert_report::priors::PriorsLine;
 use viewcert_report::{Report, WrittenProof};
 use viewcert_report::{json, page};
 use viewcert_session::exit::{GOOD, NOT};
-use viewcert_session::{Outputs, Session, outputs};
+use viewcert_session::{Outputs, Session, complain, outputs, printable};
 
 /// Decides every graph in turn; a bad one is reported and does not stop the others.
 pub(super) fn run(session: &Session, plan: &Plan) -> Result<u8> {
@@ -151,8 +151,8 @@ impl Work<'_> {
             (_, Some(certified)) => Some(OwnCertificate::Intrinsics(certified)),
             _ => None,
         };
-        let written = self.write(input, &verdict, &scope, own)?;
         let time = start.elapsed();
+        let written = self.write((input, time), &verdict, &scope, own)?;
         let advice = self.advise(input, &verdict);
         session.hide();
         let advice = advice.with_context(name)?;
@@ -189,7 +189,7 @@ impl Work<'_> {
         }
         if let Some(why) = written.no_witness {
             let name = &input.name;
-            writeln!(std::io::stderr(), "verify: {name}: no witness: {why}")?;
+            complain("verify", format_args!("{name}: no witness: {why}"))?;
         }
         if let Some(intrinsics) = scope.intrinsics() {
             return Ok(intrinsics.is_metric());
@@ -210,7 +210,7 @@ impl Work<'_> {
     /// Writes the certificate, the proof and the witness.
     fn write(
         &mut self,
-        input: &NamedGraph,
+        (input, time): (&NamedGraph, Duration),
         verdict: &Verdict,
         scope: &Scope,
         own: Option<OwnCertificate>,
@@ -218,8 +218,9 @@ impl Work<'_> {
         let (outputs, products) = (self.session.outputs(), &self.plan.products);
         let mut written = Written::default();
         if let Some(target) = &mut self.target {
+            let found = (input, time);
             let path = match own {
-                Some(own) => target.write_as(outputs, input, |out, embed| {
+                Some(own) => target.write_as(outputs, found, |out, embed| {
                     let graph = (&input.graph, &*input.name);
                     match own {
                         OwnCertificate::Here(here, centres) => {
@@ -230,11 +231,9 @@ impl Work<'_> {
                         }
                     }
                 })?,
-                None => target.write(outputs, input, verdict, scope.shared_base_lines())?,
+                None => target.write(outputs, found, verdict, scope.shared_base_lines())?,
             };
-            written
-                .lines
-                .push(format!("certificate {}", path.display()));
+            written.lines.push(format!("certificate {}", shown(&path)));
         }
         if let Some(path) = &products.proof {
             let proof = write_proof(outputs, path, input, verdict)?;
@@ -245,7 +244,7 @@ impl Work<'_> {
             let wish = (self.plan.seed, products.oriented);
             match witness::write(outputs, path, input, verdict, wish)? {
                 Ok(()) => {
-                    let line = format!("witness     {}", path.display());
+                    let line = format!("witness     {}", shown(path));
                     written.lines.push(line);
                 }
                 Err(why) => written.no_witness = Some(why),
@@ -284,11 +283,16 @@ impl Written {
         let drawn = [("page", &products.page), ("picture", &products.picture)];
         for (what, path) in drawn {
             if let Some(path) = path {
-                writeln!(out, "  {what:<11} {}", path.display())?;
+                writeln!(out, "  {what:<11} {}", shown(path))?;
             }
         }
         Ok(())
     }
+}
+
+/// A path for people.
+fn shown(path: &Path) -> String {
+    printable(&path.display().to_string())
 }
 
 /// Writes the explicit proof, and returns what it shows.

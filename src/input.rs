@@ -12,8 +12,8 @@ use viewcert_formats::{
     read_graphs,
 };
 use viewcert_report::counted;
-use viewcert_session::Session;
 use viewcert_session::exit::{GOOD, ends_run};
+use viewcert_session::{Session, complain};
 
 /// What the graphs' files are, for those that do not show it.
 #[derive(Args)]
@@ -272,7 +272,7 @@ pub(super) fn for_each_read<W: Write>(
                 Err(error) if ends_run(&error) => return Err(error),
                 Err(error) => {
                     if shown {
-                        writeln!(std::io::stderr(), "verify: {error:#}")?;
+                        complain("verify", format_args!("{error:#}"))?;
                     }
                     session.exit_code(&error)
                 }
@@ -284,9 +284,9 @@ pub(super) fn for_each_read<W: Write>(
         if bad > MOST_ERRORS {
             let more = counted(bad - MOST_ERRORS, "more line");
             let path = path.display();
-            writeln!(
-                std::io::stderr(),
-                "verify: {path}: {more} cannot be read either"
+            complain(
+                "verify",
+                format_args!("{path}: {more} cannot be read either"),
             )?;
         }
     }

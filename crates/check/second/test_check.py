@@ -51,6 +51,8 @@ def evidence(document, kind, piece=0):
 
 class Case(unittest.TestCase):
     def verifies(self, document, **options):
+        if {"graph_data", "given_data"} & options.keys():  # then the model is named as well
+            options.setdefault("model", document.get("model"))
         return check.check(json.dumps(document).encode(), **options)
 
     def rejects(self, document, *words, **options):
@@ -1560,6 +1562,8 @@ class Program(unittest.TestCase):
                 "two.json": two,
                 "rigs.txt": b"displacements " + b"A" * 64,
                 "mixed.jsonl": (text + "\n{\n").encode(),
+                "blank.jsonl": ("\n \t\r\n" + text + "\n\n").encode(),
+                "named.json": text.replace('"name": "4-cycle"', '"name": "viewcert certificate at cameras"').encode(),
                 "empty.json": b"",
                 "named.txt": b"left right\n",
                 "report.json": b'{"program": {"name": "verify"}, "graph": {"nodes": 3}}',
@@ -1587,6 +1591,13 @@ class Program(unittest.TestCase):
         for arguments, code, out, err in (
             (["good.json"], 0, "VERIFIED components: 4 maximal (proof)\n", ""),
             (["good.json", "square.g6"], 0, "VERIFIED", ""),
+            (["good.json", "--model", "projective"], 0, "VERIFIED", ""),
+            (["good.json", "--model", "calibrated"], 1, "REJECTED\n", "the model is projective"),
+            (["good.json", "--classes", "0" * 64], 1, "REJECTED\n", "the classes of cameras are not those"),
+            (["good.json", "--centres", "0" * 64], 1, "REJECTED\n", "the given cameras are not those"),
+            (["named.json"], 0, "VERIFIED", ""),
+            (["--list", "named.json", "--model", "affine"], 2, "", "usage"),
+            (["--list", "blank.jsonl"], 0, "1 verified, 0 rejected", ""),
             (["bad.json"], 1, "REJECTED\n", "the bound is 28, not 27"),
             (["good.json", "odd.txt"], 2, "", "line 2: not node numbers"),
             (["good.json", "named.txt"], 2, "", "line 1: not graph6 (`verify convert` writes"),

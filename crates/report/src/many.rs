@@ -7,6 +7,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 use viewcert::decide::Value;
+use viewcert::wording::printable;
 use viewcert_formats::csv;
 
 /// How a table is written.
@@ -88,7 +89,7 @@ impl Table {
         let components = verdict.components.len();
         let strength = strength(verdict.value_claim().strength);
         let percent = density(nodes, edges);
-        let name = name_of(&report.input.name);
+        let name = printable(&name_of(&report.input.name));
         let width = self.width;
         match self.format {
             Format::Text => {
@@ -163,8 +164,16 @@ impl Table {
 
 fn comma_separated(out: &mut impl Write, cells: [&str; 8]) -> io::Result<()> {
     let mut row = csv::Writer::commas(out);
-    row.row(cells)?;
+    row.row(cells.map(of_no_formula))?;
     row.finish()
+}
+
+/// A cell that no program takes for a formula.
+fn of_no_formula(cell: &str) -> String {
+    match cell != "-" && cell.starts_with(['=', '+', '-', '@']) {
+        true => format!("'{cell}"),
+        false => cell.to_owned(),
+    }
 }
 
 /// How many of all possible edges there are, in percent, rounded.
