@@ -1628,6 +1628,21 @@ class Program(unittest.TestCase):
                 self.assertIn(out, got[1])
                 self.assertIn(err, got[2])
 
+    def test_a_line_that_does_not_end(self):
+        """Of a compressed file it may be a thousand times as long: it is not read to its end."""
+        text, most = json.dumps(by_hand()).encode(), check.LINE_LIMIT
+        with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.StringIO()) as out:
+            path = os.path.join(folder, "long.jsonl.gz")
+            with gzip.open(path, "wb") as file:
+                file.write(text + b"\n" + bytes(10 * len(text)) + b"\n" + text)
+            check.LINE_LIMIT = 2 * len(text)
+            try:
+                self.assertEqual(check.check_list([path]), 3)
+            finally:
+                check.LINE_LIMIT = most
+        self.assertIn(f"TOO LARGE {path}:2: a line of more than", out.getvalue())
+        self.assertIn("1 verified, 0 rejected, 1 too large", out.getvalue())
+
     def test_reasons_are_printable_and_short(self):
         shown = check.shown("\x1b[2J\u2028\U0001f600\ud800" + "x" * 500)
         self.assertTrue(shown.isascii() and shown.isprintable())
