@@ -110,7 +110,8 @@ pub(super) fn run(session: &Session, arguments: &Arguments) -> Result<u8> {
                 if let Some(target) = &mut target {
                     let numbers = Labels::Numbers { first: 0 };
                     let input = NamedGraph::new(&entry.graph6, graph.clone(), numbers);
-                    target.write(session.outputs(), &input, &verdict, None)?;
+                    let found = (&input, start.elapsed());
+                    target.write(session.outputs(), found, &verdict, None)?;
                 }
                 if arguments.list {
                     list.row(entry.cells()).context("standard output")?;

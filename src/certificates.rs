@@ -1,14 +1,16 @@
 //! Where certificates go: one file, or a folder with a file a graph.
 
+use super::self_check;
 use anyhow::{Result, bail};
 use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 use viewcert::decide::{SharedBaseLines, Verdict};
 use viewcert_formats::NamedGraph;
 use viewcert_formats::manifest;
-use viewcert_session::Outputs;
+use viewcert_session::{Outputs, complain};
 
 /// The option that names the target.
 const OPTION: &str = "--certificate";
@@ -43,15 +45,15 @@ impl Target {
         )
     }
 
-    /// Writes the certificate of one graph and returns the path.
+    /// Writes the certificate of one graph that took so long to find, and returns the path.
     pub(super) fn write(
         &mut self,
         outputs: &Outputs,
-        input: &NamedGraph,
+        (input, found_in): (&NamedGraph, Duration),
         verdict: &Verdict,
         base_lines: Option<&SharedBaseLines>,
     ) -> Result<PathBuf> {
-        self.write_as(outputs, input, |out, embed| {
+        self.write_as(outputs, (input, found_in), |out, embed| {
             let certificate = verdict.certificate(&input.graph).named(&input.name);
             let certificate = match base_lines {
                 Some(found) => certificate.with_base_lines(found),
@@ -61,12 +63,13 @@ impl Target {
         })
     }
 
-    /// Writes the certificate of one graph, as `certificate` does it if it is told whether to embed the
-    /// graph, and returns the path.
+    /// Writes the certificate of one graph that took so long to find, as `certificate` does it if it is told
+    /// whether to embed the graph, and returns the path. It is checked first; where that would take longer, that
+    /// is said.
     pub(super) fn write_as(
         &mut self,
         outputs: &Outputs,
-        input: &NamedGraph,
+        (input, found_in): (&NamedGraph, Duration),
         certificate: impl FnOnce(&mut dyn Write, bool) -> std::io::Result<()>,
     ) -> Result<PathBuf> {
         let path = if self.folder {
@@ -77,7 +80,16 @@ impl Target {
             bail!("{}", Self::too_many(&self.path, "several graphs"));
         };
         let embed = self.folder && input.graph.nodes() <= HELD_NODES;
-        outputs.write(&path, |out| certificate(out, embed))?;
+        let mut text = Vec::new();
+        certificate(&mut text, embed)?;
+        if !self_check::is_checked(&text, input, found_in)? {
+            let (path, how) = (path.display(), "`verify check` does it");
+            let what = format_args!(
+                "{path} is not checked, which would take longer than to find it; {how}"
+            );
+            complain("verify", what)?;
+        }
+        outputs.write(&path, |out| out.write_all(&text))?;
         Ok(path)
     }
 
@@ -113,12 +125,10 @@ impl Target {
         }
         let path = self.path.join(&name);
         if let Some(reason) = reason {
-            writeln!(
-                std::io::stderr(),
-                "verify: {} {reason}; the certificate of {graph} is {}",
-                self.path.join(first).display(),
-                path.display()
-            )?;
+            let first = self.path.join(first);
+            let (first, path) = (first.display(), path.display());
+            let what = format_args!("{first} {reason}; the certificate of {graph} is {path}");
+            complain("verify", what)?;
         }
         self.taken.insert(name);
         Ok(path)

@@ -5,15 +5,14 @@ use super::given::{self, GivenArguments};
 use super::input::InputArguments;
 use anyhow::{Context, Result, ensure};
 use clap::{Args, ValueEnum};
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use viewcert::certificate::hex;
 use viewcert::graph::graph6;
 use viewcert_formats::plain::{lines_of, pairs};
 use viewcert_formats::{NamedGraph, read_graphs};
-use viewcert_session::Session;
 use viewcert_session::exit::{GOOD, TOO_LARGE};
 use viewcert_session::outputs;
+use viewcert_session::{Session, complain};
 
 /// Longest graph6 line that is written, in bytes: what checkers read without being asked for more.
 const LONGEST: u64 = 1 << 31;
@@ -105,13 +104,12 @@ pub(super) fn run(session: &Session, arguments: &ConvertArguments) -> Result<u8>
             for graph in std::iter::once(Ok(noted.into_owned())).chain(graphs) {
                 let graph = graph?;
                 if !fits(&graph) {
-                    writeln!(
-                        std::io::stderr(),
-                        "verify: {}: graph6 takes more than {LONGEST} bytes for {} nodes; --to pairs \
-                         takes a line a pair",
+                    let what = format_args!(
+                        "{}: graph6 takes more than {LONGEST} bytes for {} nodes; --to pairs takes a line a pair",
                         graph.name,
                         graph.graph.nodes()
-                    )?;
+                    );
+                    complain("verify", what)?;
                     return Ok(TOO_LARGE);
                 }
                 text += &graph6::encode(&graph.graph);
@@ -130,7 +128,7 @@ pub(super) fn run(session: &Session, arguments: &ConvertArguments) -> Result<u8>
 /// What was guessed, merged or ignored in reading a graph.
 fn say_notes(input: &NamedGraph) -> Result<()> {
     for note in &input.notes {
-        writeln!(std::io::stderr(), "verify: {}: {note}", input.name)?;
+        complain("verify", format_args!("{}: {note}", input.name))?;
     }
     Ok(())
 }

@@ -10,7 +10,7 @@ use anyhow::{Context, Error, Result, ensure};
 use std::borrow::Cow;
 use std::io::Write;
 use std::path::Path;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 use viewcert::Known;
 use viewcert::decide as verdict;
 use viewcert::decide::{CountSolutions, Value, Verdict};
@@ -30,7 +30,7 @@ use viewcert_report::priors::PriorsLine;
 use viewcert_report::{Report, WrittenProof};
 use viewcert_report::{json, page};
 use viewcert_session::exit::{GOOD, NOT, ends_run};
-use viewcert_session::{Outputs, Session, outputs};
+use viewcert_session::{Outputs, Session, complain, outputs, printable};
 
 /// Decides every graph, many of them side by side, and reports in their order; a bad one has its record too and
 /// does not stop the others.
@@ -212,8 +212,8 @@ impl Work<'_> {
             (_, Some(certified)) => Some(OwnCertificate::Intrinsics(certified)),
             _ => None,
         };
-        let written = self.write(input, verdict, &scope, own)?;
         let time = start.elapsed();
+        let written = self.write((input, time), verdict, &scope, own)?;
         let advice = self.advise(input, verdict);
         session.hide();
         let advice = advice.with_context(name)?;
@@ -250,7 +250,7 @@ impl Work<'_> {
         }
         if let Some(why) = written.no_witness {
             let name = &input.name;
-            writeln!(std::io::stderr(), "verify: {name}: no witness: {why}")?;
+            complain("verify", format_args!("{name}: no witness: {why}"))?;
         }
         if let Some(intrinsics) = scope.intrinsics() {
             return Ok(intrinsics.is_metric());
@@ -284,7 +284,7 @@ impl Work<'_> {
     /// Writes the certificate, the proof and the witness.
     fn write(
         &mut self,
-        input: &NamedGraph,
+        (input, time): (&NamedGraph, Duration),
         verdict: &Verdict,
         scope: &Scope,
         own: Option<OwnCertificate>,
@@ -292,8 +292,9 @@ impl Work<'_> {
         let (outputs, products) = (self.session.outputs(), &self.plan.products);
         let mut written = Written::default();
         if let Some(target) = &mut self.target {
+            let found = (input, time);
             let path = match own {
-                Some(own) => target.write_as(outputs, input, |out, embed| {
+                Some(own) => target.write_as(outputs, found, |out, embed| {
                     let graph = (&input.graph, &*input.name);
                     match own {
                         OwnCertificate::Here(here, centres) => {
@@ -304,11 +305,9 @@ impl Work<'_> {
                         }
                     }
                 })?,
-                None => target.write(outputs, input, verdict, scope.shared_base_lines())?,
+                None => target.write(outputs, found, verdict, scope.shared_base_lines())?,
             };
-            written
-                .lines
-                .push(format!("certificate {}", path.display()));
+            written.lines.push(format!("certificate {}", shown(&path)));
         }
         if let Some(path) = &products.proof {
             let proof = write_proof(outputs, path, input, verdict)?;
@@ -319,7 +318,7 @@ impl Work<'_> {
             let wish = (self.plan.seed, products.oriented);
             match witness::write(outputs, path, input, verdict, wish)? {
                 Ok(()) => {
-                    let line = format!("witness     {}", path.display());
+                    let line = format!("witness     {}", shown(path));
                     written.lines.push(line);
                 }
                 Err(why) => written.no_witness = Some(why),
@@ -358,11 +357,16 @@ impl Written {
         let drawn = [("page", &products.page), ("picture", &products.picture)];
         for (what, path) in drawn {
             if let Some(path) = path {
-                writeln!(out, "  {what:<11} {}", path.display())?;
+                writeln!(out, "  {what:<11} {}", shown(path))?;
             }
         }
         Ok(())
     }
+}
+
+/// A path for people.
+fn shown(path: &Path) -> String {
+    printable(&path.display().to_string())
 }
 
 /// Writes the explicit proof, and returns what it shows.

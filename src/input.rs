@@ -14,8 +14,8 @@ use viewcert_formats::{
     read_graphs,
 };
 use viewcert_report::counted;
-use viewcert_session::Session;
 use viewcert_session::exit::{GOOD, ends_run};
+use viewcert_session::{Session, complain};
 
 /// What the graphs' files are, for those that do not show it.
 #[derive(Args)]
@@ -390,7 +390,7 @@ impl<'a> Reading<'a> {
                     Err(error) if ends_run(&error) => return Err(error),
                     Err(error) => {
                         if bad.of_path <= MOST_ERRORS {
-                            writeln!(std::io::stderr(), "verify: {error:#}")?;
+                            complain("verify", format_args!("{error:#}"))?;
                         }
                         session.exit_code(&error)
                     }
@@ -456,9 +456,9 @@ impl<'a> BadLines<'a> {
         {
             let more = counted(self.of_path - MOST_ERRORS, "more line");
             let path = path.display();
-            writeln!(
-                std::io::stderr(),
-                "verify: {path}: {more} cannot be read either"
+            complain(
+                "verify",
+                format_args!("{path}: {more} cannot be read either"),
             )?;
         }
         Ok(())

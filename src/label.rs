@@ -3,14 +3,13 @@
 use super::input::{InputArguments, Inputs, for_each_read};
 use anyhow::{Context, Result};
 use clap::Args;
-use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use viewcert::graph::Labels;
 use viewcert_catalog::label::{Label, MAX_NODES};
 use viewcert_formats::{NamedGraph, ReadAs, read_graphs};
 use viewcert_report::label::LabelReport;
-use viewcert_session::Session;
 use viewcert_session::exit::{GOOD, TooLarge};
+use viewcert_session::{Session, outputs};
 
 /// What to name.
 #[derive(Args)]
@@ -28,7 +27,7 @@ pub(super) struct LabelArguments {
 
 /// Names every graph; a bad one is reported and does not stop the others.
 pub(super) fn run(session: &Session, arguments: &LabelArguments) -> Result<u8> {
-    let mut out = BufWriter::new(std::io::stdout().lock());
+    let mut out = outputs::text(&[]);
     let paths = &arguments.graphs;
     let options = arguments.input.of_pairs()?;
     for text in paths.iter().filter_map(|path| label(path)) {

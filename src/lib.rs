@@ -27,12 +27,13 @@ mod models;
 mod overview;
 mod plan;
 mod question;
+mod self_check;
 mod split;
 mod verify;
 mod witness;
 
 pub use bounds::Bounds;
-pub use check::{Archive, News, check_archive};
+pub use check::{Archive, News, Statement, Terms, check_archive};
 pub use input::InputArguments;
 pub use limits::LimitArguments;
 pub use lists::Asked as ListsAsked;

@@ -4,14 +4,13 @@ use super::given::{self, GivenArguments};
 use super::input::InputArguments;
 use anyhow::{Context, Result, ensure};
 use clap::Args;
-use std::io::BufWriter;
 use std::path::PathBuf;
 use viewcert::decide::{Draft, Options, Value, Verdict, decide};
 use viewcert::geometry::model::Model;
 use viewcert_formats::NamedGraph;
 use viewcert_report::models as report;
-use viewcert_session::Session;
 use viewcert_session::exit::{GOOD, NOT};
+use viewcert_session::{Session, outputs};
 
 /// Options of the comparison of models.
 #[derive(Args)]
@@ -35,7 +34,7 @@ pub(super) struct ModelsArguments {
 
 /// Decides every graph in every model; a bad one is reported and does not stop the others.
 pub(super) fn run(session: &Session, arguments: &ModelsArguments) -> Result<u8> {
-    let mut out = BufWriter::new(std::io::stdout().lock());
+    let mut out = outputs::text(&[]);
     let given = arguments.given.path();
     given::ensure_one_standard_input(given::OPTION, given, &arguments.graphs)?;
     let too_many = |what: &str| Some(given::too_many(given::OPTION, given?, what));

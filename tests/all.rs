@@ -14,6 +14,7 @@ mod base_lines;
 mod camera_point;
 mod catalog;
 mod certificates;
+mod checking;
 mod colmap;
 mod convert;
 mod cross;

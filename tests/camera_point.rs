@@ -373,6 +373,6 @@ fn a_long_path_is_one_body() {
     assert_eq!(run.json()[0]["rank"], 3 * 602 - 4);
     let written: Value = serde_json::from_slice(&std::fs::read(certificate).unwrap()).unwrap();
     assert_eq!(written["pieces"], json!([]));
-    let check = verify(&["check", certificate, graph]);
+    let check = verify(&["check", certificate, graph, "--model", "calibrated"]);
     assert_eq!(check.code, 0, "{}{}", check.out, check.err);
 }

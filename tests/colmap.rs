@@ -1126,12 +1126,10 @@ fn certificates_of_camera_point_graphs() {
         let pairs = lines.lines().filter(|line| !line.starts_with('#'));
         assert_eq!(pairs.count(), 9 + cameras - 3);
         assert!(lines.contains("point 1\n"), "{lines}");
-        let first = crate::common::first_checker(&[text(&certificate), text(&graph)]);
+        let named = [text(&certificate), text(&graph), "--model", "calibrated"];
+        let first = crate::common::first_checker(&named);
         assert_eq!(first.code, 0, "{}", first.err);
-        assert_eq!(
-            crate::common::second_checker(&[text(&certificate), text(&graph)]).code,
-            0
-        );
+        assert_eq!(crate::common::second_checker(&named).code, 0);
         assert_eq!(check(&[text(&input), "--tracks"]), 0);
         assert_eq!(check(&[text(&input), "--tracks", "--min-views", "2"]), 1);
     }
@@ -1223,8 +1221,14 @@ fn rigs_hold_parts_together() {
     ]
     .concat();
     assert_eq!(verify(&without).code, 1);
-    let second =
-        crate::common::second_checker(&[text(&certificate), text(&graph), "--given", text(&given)]);
+    let second = crate::common::second_checker(&[
+        text(&certificate),
+        text(&graph),
+        "--given",
+        text(&given),
+        "--model",
+        "calibrated",
+    ]);
     assert_eq!(second.code, 0, "{}", second.err);
 }
 
@@ -1474,7 +1478,8 @@ fn certificates_state_unknown_base_lines() {
         // Who says that there are no rigs supposes no frames.
         assert_eq!(run(&["check", certificate, database, "--no-rigs"]).code, 1);
         let alone = [certificate, text(&graph)];
-        let named = [&alone[..], &["--given", text(&given)]].concat();
+        let model = ["--model", "calibrated"];
+        let named = [&alone[..], &["--given", text(&given)], &model].concat();
         for checker in [crate::common::first_checker, crate::common::second_checker] {
             let checked = checker(&named);
             assert!(
@@ -1613,7 +1618,14 @@ fn pose_priors_are_positions_that_are_asked_for() {
     assert_eq!(done(&["check", text(&certificate), database]), 0);
     let check = [&["check", text(&certificate), database], &OF_TWO[..]].concat();
     assert_eq!(verify(&check).code, 1);
-    let arguments = [text(&certificate), text(&graph), "--given", text(&known)];
+    let arguments = [
+        text(&certificate),
+        text(&graph),
+        "--given",
+        text(&known),
+        "--model",
+        "calibrated",
+    ];
     assert_eq!(crate::common::first_checker(&arguments).code, 0);
     assert_eq!(crate::common::second_checker(&arguments).code, 0);
     // Three positions leave the size of the right part open.

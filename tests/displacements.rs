@@ -221,7 +221,15 @@ fn certificates_bind_the_vectors() {
         ("longer.txt", 1),
         ("none.txt", 1),
     ] {
-        let (code, out) = run(&["check", "equal.json", "pairs.txt", "--given", file]);
+        let (code, out) = run(&[
+            "check",
+            "equal.json",
+            "pairs.txt",
+            "--given",
+            file,
+            "--model",
+            "calibrated",
+        ]);
         assert_eq!(code, Some(expected), "{file}: {out}");
     }
 }
@@ -360,7 +368,14 @@ fn certificates_and_both_checkers() {
         let hash = checked.out.trim_end().rsplit(' ').next().unwrap();
         for arguments in [
             &[certificate][..],
-            &[certificate, graph.text(), "--given", own],
+            &[
+                certificate,
+                graph.text(),
+                "--given",
+                own,
+                "--model",
+                "calibrated",
+            ],
         ] {
             let checked = verify(&[&["check"], arguments].concat());
             assert_eq!(checked.code, 0, "{}", checked.out);
@@ -392,7 +407,11 @@ fn certificates_and_both_checkers() {
                 (vec![certificate, &converted, "--given", &hash], 0),
                 (vec![certificate, &converted, "--given", &zeros], 1),
             ] {
-                let run = checker(&arguments);
+                let model: &[&str] = match arguments.len() {
+                    1 => &[],
+                    _ => &["--model", "calibrated"],
+                };
+                let run = checker(&[&arguments[..], model].concat());
                 assert_eq!(run.code, code, "{pairs:?} {arguments:?}: {}", run.err);
             }
         }

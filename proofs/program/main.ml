@@ -77,7 +77,7 @@ let check graph_path proof_path =
              (fun b -> proof.bodies.(b)) last proof.owner c.in_owner (Array.length c.numbers)
              (fun k -> c.numbers.(k)) c.pair_at c.steps
   in
-  say "%s: %d nodes, %d pairs, SHA-256 of the file %s: %s\n" graph_path n m graph.sha256
+  say "%s: %d nodes, %d pairs, SHA-256 of the file %s: %s\n" (String.escaped graph_path) n m graph.sha256
     (if accepted then "VERIFIED" else "REJECTED: the proof does not show its claim");
   if accepted then begin
     theorem proof.model n proof.lower proof.upper proof.solvable;

@@ -10,7 +10,7 @@ use pyo3::types::PyBytes;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use viewcert_check::Failure;
-use viewcert_cli::{ListsAsked, MergeAsked, News, OverviewAsked, check_archive};
+use viewcert_cli::{ListsAsked, MergeAsked, News, OverviewAsked, Terms, check_archive};
 use viewcert_formats::ReadOptions;
 use viewcert_formats::folder::Listing;
 use viewcert_report::overview_page;
@@ -163,7 +163,7 @@ pub(crate) struct Archive {
     graphs: usize,
     /// How many prove each verdict.
     verdicts: BTreeMap<String, u64>,
-    /// How many take known parts, displacements or base lines for given.
+    /// How many suppose anything besides their graphs.
     supposing: usize,
     /// Whether all is there that manifests name; nothing without one.
     complete: Option<bool>,
@@ -186,7 +186,7 @@ pub(crate) fn check_all(py: Python<'_>, path: PathBuf) -> PyResult<Archive> {
             path.display()
         );
         let (mut rejected, mut undecided) = (Vec::new(), Vec::new());
-        let found = check_archive(&listing, &mut |news| {
+        let found = check_archive(&listing, &Terms::default(), &mut |news| {
             match news {
                 News::File(_) => (),
                 News::Done(more) => teller.counted("certificates", more),
@@ -209,13 +209,19 @@ pub(crate) fn check_all(py: Python<'_>, path: PathBuf) -> PyResult<Archive> {
             Some(said) => (Some(said.complete), said.lines),
             None => (None, Vec::new()),
         };
+        let mut verdicts = BTreeMap::new();
+        for (statement, count) in &found.statements {
+            *verdicts.entry(statement.verdict.clone()).or_default() += count;
+        }
+        let supposing = found.statements.iter();
+        let supposing = supposing.filter(|(statement, _)| !statement.supposed.is_empty());
         Ok(Archive {
             verified: found.verified,
             rejected,
             undecided,
             graphs: found.graphs,
-            verdicts: found.verdicts,
-            supposing: found.supposing,
+            verdicts,
+            supposing: supposing.map(|(_, count)| *count as usize).sum(),
             complete,
             manifest,
             skipped: skipped.collect(),

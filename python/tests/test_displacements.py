@@ -26,7 +26,9 @@ def test_two_rigs() -> None:
         assert verdict.displacements == [frozenset("ab"), frozenset("cd")]
         assert any("displacements" in condition for condition in verdict.conditions)
         certificate = verdict.certificate()
-        assert viewcert.check(certificate, PAIRS, displacements=RIGS).displacements == 2
+        assert viewcert.check(certificate, PAIRS, displacements=RIGS, model="calibrated").displacements == 2
+        with pytest.raises(viewcert.Rejected, match="about the calibrated model, and projective is expected"):
+            viewcert.check(certificate, PAIRS, displacements=RIGS)
         with pytest.raises(viewcert.Rejected, match="supposed to be known, and none are given"):
             viewcert.check(certificate, PAIRS)
         verified = viewcert.check(verdict)
@@ -98,7 +100,7 @@ def test_a_checker_that_is_given_the_vectors() -> None:
     assert verdict.vectors == rigs
     assert viewcert.check(verdict).value == verdict.value
     certificate = verdict.certificate()
-    assert viewcert.check(certificate, pairs, displacements=rigs).value == verdict.value
+    assert viewcert.check(certificate, pairs, displacements=rigs, model="calibrated").value == verdict.value
     for others in [{**rigs, (4, 5): (1, 1, 2)}, list(rigs), None]:
         with pytest.raises(viewcert.Rejected, match="displacements"):
             viewcert.check(certificate, pairs, displacements=others)

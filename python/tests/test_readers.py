@@ -179,7 +179,7 @@ def test_unknown_base_lines(
     certificate = verdict.certificate()
     assert viewcert.check(certificate).base_lines == value
     assert viewcert.check(verdict).base_lines == value
-    assert viewcert.check(certificate, graph).base_lines == value
+    assert viewcert.check(certificate, graph, model="calibrated").base_lines == value
     without = viewcert.read(model, tracks=True, min_views=2, rigs=False)
     assert viewcert.verify(without).base_lines is None
     with pytest.raises(viewcert.Rejected, match="the frames are not those that are given"):

@@ -85,7 +85,7 @@ def test_claims_as_the_program_rules_on_them(tmp_path: pathlib.Path, program: Pr
     for ruling, claim in zip(mine, claims()):
         # What refutes them can be checked.
         graph = nx.from_graph6_bytes(claim["graph"].encode())
-        assert viewcert.check(ruling.verdict.certificate(), graph).value == ruling.verdict.value
+        assert viewcert.check(ruling.verdict.certificate(), graph, model=ruling.verdict.model).value == ruling.verdict.value
 
 
 @pytest.mark.parametrize("library", ["pandas", "polars"])

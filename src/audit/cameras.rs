@@ -16,7 +16,7 @@ use viewcert_formats::{NamedGraph, cameras_beside, whole};
 use viewcert_report::at_cameras::AtCameras;
 use viewcert_report::size;
 use viewcert_session::exit::{GOOD, NOT, TooLarge};
-use viewcert_session::{Session, outputs};
+use viewcert_session::{Session, outputs, printable};
 
 /// The exact answer in one model, and the cameras as they were read.
 struct Exact {
@@ -72,7 +72,7 @@ fn one(
         }
     }
     if !json && let Some(first) = answers.values().next() {
-        writeln!(out, "{}", input.name)?;
+        writeln!(out, "{}", printable(&input.name))?;
         writeln!(out, "  read as     {}", input.read)?;
         writeln!(out, "  graph       {}", size(&input.graph))?;
         for note in &first.input.notes {

@@ -5,16 +5,16 @@ use super::AuditArguments;
 use anyhow::{Context, Result, anyhow, bail};
 use std::io::Write;
 use std::path::Path;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use viewcert::decide;
 use viewcert_audit::claims;
 use viewcert_audit::claims::{Claim, Row, Ruling};
 use viewcert_formats::{NamedGraph, whole};
 use viewcert_report::counted;
 use viewcert_report::rulings::{self, Ruled};
-use viewcert_session::Session;
 use viewcert_session::exit::{GOOD, NOT, ends_run};
 use viewcert_session::outputs;
+use viewcert_session::{Session, complain};
 
 /// Rules on all rows; a bad one is reported and does not stop the others.
 pub(super) fn run(session: &Session, arguments: &AuditArguments, path: &Path) -> Result<u8> {
@@ -38,7 +38,7 @@ pub(super) fn run(session: &Session, arguments: &AuditArguments, path: &Path) ->
             Ok(ruled) => ruled,
             Err(error) if ends_run(&error) => return Err(error),
             Err(error) => {
-                writeln!(std::io::stderr(), "verify: {}: {error:#}", at(row.line))?;
+                complain("verify", format_args!("{}: {error:#}", at(row.line)))?;
                 counts[3] += 1;
                 worst = worst.max(session.exit_code(&error));
                 continue;
@@ -80,12 +80,13 @@ fn decide_again(
 ) -> Result<Ruled> {
     let (claim, input) = claim(arguments, row)?;
     let options = arguments.exact(session).model(claim.model);
+    let start = Instant::now();
     let exact = decide::decide(&input.graph, &options).with_context(|| input.name.clone())?;
     let (nodes, edges) = (input.graph.nodes(), input.graph.edges().len());
     let ruling = claims::rule(&claim, nodes, edges, &exact);
     let certificate = match (&ruling, target) {
         (Ruling::Refuted(_), Some(target)) => {
-            Some(target.write(session.outputs(), &input, &exact, None)?)
+            Some(target.write(session.outputs(), (&input, start.elapsed()), &exact, None)?)
         }
         _ => None,
     };

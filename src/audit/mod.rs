@@ -17,10 +17,10 @@ use viewcert_audit::beside::Beside;
 use viewcert_audit::{AuditError, Method, TOLERANCE};
 use viewcert_formats::NamedGraph;
 use viewcert_report::audit::{self as report, Audit};
-use viewcert_session::Session;
 use viewcert_session::exit;
 use viewcert_session::exit::{GOOD, NOT};
 use viewcert_session::outputs;
+use viewcert_session::{Session, printable};
 
 /// Options of the audit.
 #[derive(Args)]
@@ -176,7 +176,7 @@ fn one(
     let exact = decide::decide(&input.graph, &arguments.exact(session)).with_context(name)?;
     let exact_time = start.elapsed();
     let certificate = target
-        .map(|target| target.write(session.outputs(), input, &exact, None))
+        .map(|target| target.write(session.outputs(), (input, exact_time), &exact, None))
         .transpose()?;
 
     let float = Beside::new(&input.graph, &exact, &options, arguments.draws);
@@ -192,7 +192,11 @@ fn one(
     } else {
         report::text(out, &found)?;
         if let Some(path) = certificate {
-            writeln!(out, "  certificate {}", path.display())?;
+            writeln!(
+                out,
+                "  certificate {}",
+                printable(&path.display().to_string())
+            )?;
         }
     }
     Ok(found.float.agrees)

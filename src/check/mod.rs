@@ -1,27 +1,26 @@
 //! `verify check`: the independent checker on certificates.
 
 mod archive;
-pub(crate) mod checker;
-mod here;
-mod intrinsics;
+mod checker;
 mod proved;
 
-pub use archive::{Archive, News, check_archive};
+pub use archive::{Archive, News, Statement, Terms, check_archive};
 
 use super::given::GivenArguments;
 use super::input::InputArguments;
-use super::plan::{INTRINSICS, IntrinsicsFrom};
+use super::plan::IntrinsicsFrom;
 use anyhow::{Context, Result, bail, ensure};
-use archive::reason;
+use archive::{not_as_expected, reason};
+use checker::Named;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use viewcert_check::program::{is_certificate, no_certificate};
-use viewcert_check::{Failure, is_here, is_of_intrinsics};
+use viewcert_check::program::{self, MAX_BYTES, is_certificate, no_certificate};
+use viewcert_check::{AnyCertificate, AnyVerified, Expected, Failure, Limits, Model};
 use viewcert_formats::folder::{Listing, is_list, name};
-use viewcert_formats::whole;
+use viewcert_formats::{NamedGraph, whole};
 use viewcert_report::counted;
 use viewcert_session::exit::{GOOD, NOT, TOO_LARGE};
 use viewcert_session::printable;
@@ -55,8 +54,90 @@ pub(super) struct CheckArguments {
     #[command(flatten)]
     given: GivenArguments,
     /// For a certificate of intrinsics: the classes it has to suppose, as for `verify GRAPH`.
-    #[arg(long, value_name = "FILE", num_args = 0..=1, requires = "graph")]
+    #[arg(long, value_name = "FILE", num_args = 0..=1, requires = "graph", conflicts_with = "classes")]
     intrinsics: Option<Option<PathBuf>>,
+    #[command(flatten)]
+    expected: ExpectedArguments,
+}
+
+/// What `viewcert-check` takes as well. With GRAPH or any of these the model is projective, and nothing else is
+/// supposed, unless it is named.
+#[derive(Args)]
+#[command(next_help_heading = "What the certificate must be about")]
+struct ExpectedArguments {
+    /// The verdict: solvable, finite-solvable, not-finite-solvable; determined or not-determined at given
+    /// cameras; metric, not-metric or open.
+    #[arg(long, value_name = "VERDICT", value_parser = program::verdict)]
+    expect: Option<String>,
+    /// The model: projective, calibrated or affine.
+    #[arg(long, value_name = "MODEL", value_parser = program::model)]
+    model: Option<Model>,
+    /// The number of nodes.
+    #[arg(long, value_name = "N")]
+    nodes: Option<usize>,
+    /// The number of edges.
+    #[arg(long, value_name = "M")]
+    edges: Option<usize>,
+    /// The hash of the graph.
+    #[arg(long, value_name = "HEX", value_parser = program::hash)]
+    sha256: Option<String>,
+    /// The hash of the cameras' centres, for a certificate at given cameras.
+    #[arg(long, value_name = "HEX", value_parser = program::hash)]
+    centres: Option<String>,
+    /// The hash of the cameras' classes, for a certificate of intrinsics.
+    #[arg(long, value_name = "HEX", value_parser = program::hash)]
+    classes: Option<String>,
+    /// Proofs, no error bounds.
+    #[arg(long)]
+    proofs_only: bool,
+    /// Size of a certificate [default: 2^31; of a line of many: 2^28].
+    #[arg(long, value_name = "N", help_heading = LIMITS, hide_short_help = true)]
+    max_bytes: Option<u64>,
+    /// Nodes of a core.
+    #[arg(long, value_name = "N", help_heading = LIMITS, hide_short_help = true)]
+    max_core: Option<u64>,
+    /// Flows of a `plane-flow`.
+    #[arg(long, value_name = "N", help_heading = LIMITS, hide_short_help = true)]
+    max_flows: Option<u64>,
+    /// Bits of an integer of an `integer-minor`.
+    #[arg(long, value_name = "N", help_heading = LIMITS, hide_short_help = true)]
+    max_bits: Option<u64>,
+    /// Elementary operations in all.
+    #[arg(long, value_name = "N", help_heading = LIMITS, hide_short_help = true)]
+    max_operations: Option<u64>,
+}
+
+/// The title of limits in the help.
+const LIMITS: &str = "Limits of checking (beyond them: exit code 3)";
+
+impl CheckArguments {
+    /// What is expected, and what it may cost to see.
+    fn terms(&self) -> Terms {
+        let asked = &self.expected;
+        let default = Limits::default();
+        Terms {
+            expected: Expected {
+                verdict: asked.expect.clone(),
+                // Observations of points have no other model.
+                model: asked.model.or(self.tracks.then_some(Model::Calibrated)),
+                nodes: asked.nodes,
+                edges: asked.edges,
+                sha256: asked.sha256.clone(),
+                centres: asked.centres.clone(),
+                classes: asked.classes.clone(),
+                proofs_only: asked.proofs_only,
+                for_graph: self.graph.is_some(),
+                given: self.given.path().is_some(),
+            },
+            limits: Limits {
+                core: asked.max_core.unwrap_or(default.core),
+                flows: asked.max_flows.unwrap_or(default.flows),
+                bits: asked.max_bits.unwrap_or(default.bits),
+                operations: asked.max_operations.unwrap_or(default.operations),
+            },
+            max_bytes: asked.max_bytes,
+        }
+    }
 }
 
 /// Checks one certificate, or all of a file or folder.
@@ -91,9 +172,18 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<u8> {
             "{}: no certificates (.json, .jsonl, .jsonl.gz); name a folder that has some, or the files",
             path.display()
         );
-        return check_files(path, &listing);
+        return check_files(path, &listing, &arguments.terms());
     }
     let text = whole::bytes(path)?;
+    let most = arguments.expected.max_bytes.unwrap_or(MAX_BYTES);
+    if text.len() as u64 > most {
+        writeln!(
+            std::io::stderr(),
+            "verify: too large for the limits: {} has more than {most} bytes; raise it with --max-bytes",
+            name(path)
+        )?;
+        return Ok(TOO_LARGE);
+    }
     ensure_certificate(path, &text, arguments.graph.as_deref())?;
     let given = arguments.given.path();
     let classes = arguments.intrinsics.as_ref().and_then(Option::as_deref);
@@ -110,83 +200,72 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<u8> {
         true => Ok(arguments.input.of_tracks()),
         false => arguments.input.of_pairs(),
     };
-    if is_here(&text) {
-        ensure!(
-            given.is_none() && arguments.proved.is_none(),
-            "this certificate is about given cameras, which it holds: leave out --given and --proved, and compare \
-             the hash of the centres with that of `verify GRAPH --given FILE`"
-        );
-        let checked = here::check(&text, arguments.graph.as_deref(), &options()?)?;
-        return say(checked, String::clone, |_, _| Ok(GOOD));
-    }
-    let classes = arguments.intrinsics.clone().map(IntrinsicsFrom::from);
-    if is_of_intrinsics(&text) {
-        ensure!(
-            given.is_none() && arguments.proved.is_none(),
-            "this certificate is about classes of cameras and nothing else: leave out --given and --proved"
-        );
-        let graph = arguments.graph.as_deref();
-        let checked = intrinsics::check(&text, graph, classes.as_ref(), &options()?)?;
-        return say(checked, String::clone, |_, _| Ok(GOOD));
-    }
-    ensure!(
-        classes.is_none(),
-        "{INTRINSICS}: this certificate is about no classes of cameras; leave it out"
-    );
-    let outcome = match (&arguments.graph, given) {
-        (None, None) => checker::check(&text),
-        (None, Some(given)) => checker::check_given(&text, given)?,
-        (Some(graph), given) => checker::check_for(&text, graph, given, &options()?)?,
+    let from = arguments.intrinsics.clone().map(IntrinsicsFrom::from);
+    let mut terms = arguments.terms();
+    let mut of_graph = None;
+    let checked = match AnyCertificate::parse(&text) {
+        Ok(certificate) => {
+            let named = Named {
+                graph: arguments.graph.as_deref(),
+                given,
+                classes: from.as_ref(),
+                read: &options()?,
+            };
+            of_graph = named.resolve(&certificate, &mut terms.expected)?;
+            let graph = of_graph.as_ref().map(|(graph, _)| graph);
+            certificate.check_within(graph, &terms.limits)
+        }
+        Err(failure) => Err(failure),
     };
-    let text = |proved: &checker::Proved| proved.text.clone();
-    say(outcome, text, |out, proved| {
-        match (&arguments.proved, &arguments.graph) {
-            (Some(proof), Some(graph)) => say_vouched(out, proved, graph, proof),
-            _ => Ok(GOOD),
-        }
-    })
-}
-
-/// Says what was verified in words, or not, and returns the exit code; what else there is to say of what was
-/// verified follows.
-fn say<T>(
-    outcome: Result<T, Failure>,
-    text: impl Fn(&T) -> String,
-    more: impl FnOnce(&mut std::io::StdoutLock, &T) -> Result<u8>,
-) -> Result<u8> {
+    let verified = match checked {
+        Ok(verified) => verified,
+        Err(failure) => return not_verified(&failure),
+    };
+    let found = terms.expected.differences(&verified);
+    if !found.is_empty() {
+        writeln!(
+            std::io::stderr(),
+            "verify: {}",
+            printable(&not_as_expected(&found))
+        )?;
+        return Ok(NOT);
+    }
     let mut out = std::io::stdout().lock();
-    let code = match outcome {
-        Ok(proved) => {
-            for line in text(&proved).lines() {
-                writeln!(out, "VERIFIED {}", printable(line))?;
-            }
-            more(&mut out, &proved)?
-        }
-        Err(Failure::Rejected(rejection)) => {
-            writeln!(out, "REJECTED: {}", printable(&rejection.to_string()))?;
-            NOT
-        }
-        Err(Failure::TooLarge(limit)) => {
-            writeln!(
-                std::io::stderr(),
-                "verify: {}",
-                printable(&limit.to_string())
-            )?;
-            TOO_LARGE
-        }
+    for line in verified.to_string().lines() {
+        writeln!(out, "VERIFIED {}", printable(line))?;
+    }
+    let code = match (&arguments.proved, &of_graph) {
+        (Some(proof), Some((_, input))) => say_vouched(&mut out, &verified, input, proof)?,
+        _ => GOOD,
     };
     out.flush().context("standard output")?;
     Ok(code)
 }
 
+/// Says why a certificate is not verified, and returns the exit code.
+fn not_verified(failure: &Failure) -> Result<u8> {
+    match failure {
+        Failure::Rejected(_) => {
+            let mut out = std::io::stdout().lock();
+            writeln!(out, "REJECTED: {}", reason(failure))?;
+            out.flush().context("standard output")?;
+            Ok(NOT)
+        }
+        Failure::TooLarge(_) => {
+            writeln!(std::io::stderr(), "verify: {}", reason(failure))?;
+            Ok(TOO_LARGE)
+        }
+    }
+}
+
 /// Which checkers vouch for the claims, and the exit code.
 fn say_vouched(
     out: &mut impl Write,
-    proved: &checker::Proved,
-    graph: &Path,
+    verified: &AnyVerified,
+    graph: &NamedGraph,
     proof: &Path,
 ) -> Result<u8> {
-    Ok(match proved::vouch(proved, graph, proof)? {
+    Ok(match proved::vouch(verified, graph, proof)? {
         Ok(claims) => {
             for claim in claims.lines() {
                 writeln!(out, "CHECKED {claim}")?;
@@ -215,12 +294,12 @@ fn ensure_certificate(path: &Path, text: &[u8], graph: Option<&Path>) -> Result<
     bail!("{}: {}", path.display(), no_certificate(swapped))
 }
 
-/// Checks every certificate of every file, and says what came of them.
-fn check_files(path: &Path, listing: &Listing) -> Result<u8> {
+/// Checks every certificate of every file, and says what came of them: what all suppose is listed.
+fn check_files(path: &Path, listing: &Listing, terms: &Terms) -> Result<u8> {
     let style = ProgressStyle::with_template("{bar:40} {pos} certificates, {per_sec}, {msg}")?;
     let bar = ProgressBar::new_spinner().with_style(style);
     let mut out = std::io::stdout().lock();
-    let found = check_archive(listing, &mut |news| {
+    let found = check_archive(listing, terms, &mut |news| {
         match news {
             News::File(file) => bar.set_message(name(file)),
             News::Done(more) => bar.inc(more),
@@ -242,6 +321,9 @@ fn check_files(path: &Path, listing: &Listing) -> Result<u8> {
     }
     writeln!(out)?;
     writeln!(out, "{}", counted(found.graphs, "distinct graph"))?;
+    for (statement, count) in &found.statements {
+        writeln!(out, "{count} {statement}")?;
+    }
     let mut good = found.rejected == 0;
     match found.completeness {
         Some(completeness) => {

@@ -8,6 +8,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
+use viewcert::wording::printable;
 use viewcert_session::Outputs;
 
 const COMPONENTS: &str = "components";
@@ -347,6 +348,9 @@ pub fn shell(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "/._-+:@%".contains(c);
     if !word.is_empty() && word.chars().all(plain) {
         word.to_owned()
+    } else if printable(word) != word {
+        let quoted = word.replace('\\', r"\\").replace('\'', r"\'");
+        format!("$'{}'", printable(&quoted))
     } else {
         format!("'{}'", word.replace('\'', r"'\''"))
     }
@@ -369,6 +373,7 @@ mod tests {
     fn words_are_quoted_for_the_shell_and_for_python() {
         assert_eq!(shell("out/components/001"), "out/components/001");
         assert_eq!(shell("my photos"), "'my photos'");
+        assert_eq!(shell("it's\n\u{202e}"), r"$'it\'s\u000a\u202e'");
         assert_eq!(shell("it's"), r"'it'\''s'");
         assert_eq!(python(r#"a "b" \ it's"#), r#""a \"b\" \\ it\x27s""#);
     }

@@ -11,6 +11,7 @@ Whatever is not shown to be right is rejected: an exception that nobody foresaw 
 
 import argparse
 import gzip
+import itertools
 import sys
 
 from base_lines import BaseLines
@@ -18,18 +19,20 @@ from here import FORMAT as AT_CAMERAS
 from here import HereCheck
 from intrinsics import FORMAT as OF_INTRINSICS
 from intrinsics import IntrinsicsCheck
-from notation import Reject, TooLarge, Unreadable
+from graphs import read_given
+from notation import Reject, TooLarge, Unreadable, need, parse
 from solutions import WORK_LIMIT
 
 CORE_LIMIT = 200  # core nodes; plain Python needs minutes beyond
+LINE_LIMIT = 2**26  # bytes of a line of many certificates; compressed it may be a thousandth of that
 
 
 class Check(BaseLines):
     """The check of one certificate. `evidence_claim` is what its evidence proves, to be compared with its claim."""
 
-    def __init__(self, data, graph_data=None, core_limit=CORE_LIMIT, given_data=None, work_limit=WORK_LIMIT):
+    def __init__(self, data, graph_data=None, core_limit=CORE_LIMIT, given_data=None, work_limit=WORK_LIMIT, expects=False):
         self.core_limit, self.work_limit = core_limit, work_limit
-        bodies, rigid, pieces, solutions, base_lines = self.read_document(data, graph_data, given_data)
+        bodies, rigid, pieces, solutions, base_lines = self.read_document(data, graph_data, given_data, expects)
         self.check_bodies(bodies)
         everything = self.cover()
         found, rigid_count = self.check_pieces(rigid, pieces, everything, "section 6: ")
@@ -66,41 +69,46 @@ class Check(BaseLines):
 
 
 def check(data, **given):
-    """Checks one certificate (with what `Check` takes); gives the check if it is right, else raises why it is not."""
+    """Checks one certificate (with what `check_kind` takes); gives the check if it is right, else raises why it is not."""
     try:
-        if type(data) is bytes and AT_CAMERAS in data:
-            return check_here(data, **given)
-        if type(data) is bytes and OF_INTRINSICS in data:
-            return check_intrinsics(data, **given)
-        if given.pop("classes_hash", None) is not None:
-            raise Reject("it is about no classes, and some are expected")
-        done = Check(data, **given)
-        done.compare_claim()
-        return done
+        return check_kind(parse(data) if type(data) is bytes else data, **given)
     except (Reject, Unreadable, TooLarge):
         raise
     except Exception as error:  # whatever is not foreseen is rejected
         raise Reject(f"unexpected {type(error).__name__}: {error}") from error
 
 
+def check_kind(document, graph_data=None, core_limit=CORE_LIMIT, given_data=None, work_limit=WORK_LIMIT, **named):
+    """Section 3: the member `format` says which kind it is. `named` are `model`, `classes_hash`, `centres_hash`."""
+    expects = any(one is not None for one in (graph_data, given_data, *named.values()))
+    form = document.get("format") if type(document) is dict else None
+    if form == AT_CAMERAS:
+        done = HereCheck(document, graph_data, core_limit)
+    elif form == OF_INTRINSICS:
+        done = IntrinsicsCheck(document, graph_data, core_limit)
+    else:
+        done = Check(document, graph_data, core_limit, given_data, work_limit, expects)
+        done.compare_claim()
+    if expects:
+        need_named(done, given_data, **named)
+    return done
+
+
+def need_named(done, given_data, model=None, classes_hash=None, centres_hash=None):
+    """Section 3, hypotheses: whoever expects anything names each of them."""
+    if given_data is not None and not isinstance(done, Check):
+        parts, displacements, _ = read_given(given_data, done.graph)
+        need(not parts and displacements is None, "section 3: known parts or displacements are given, and it supposes none")
+    need(done.model == (model or "projective"), f"section 3: the model is {done.model}, which is not the one that is named")
+    centres, classes = (getattr(done, name).hex() if hasattr(done, name) else None for name in ("centres_hash", "classes_hash"))
+    need(centres == centres_hash, "section 3: the given cameras are not those that are named, by their hash")
+    need(classes == classes_hash, "section 3: the classes of cameras are not those that are named, by their hash")
+
+
 def shown_oriented(numbers):
     """How many solutions are real, and how many of these oriented, at places that were found."""
     seen = [f"{oriented} of {real}" for real, oriented in numbers.get("oriented", [])]
     return f", real ones that are oriented, near some cameras: {', '.join(seen)}" * bool(seen)
-
-
-def check_here(data, graph_data=None, core_limit=CORE_LIMIT, given_data=None, work_limit=None, classes_hash=None):
-    if given_data is not None:
-        raise Unreadable("a certificate at given cameras supposes nothing else; leave out --given")
-    if classes_hash is not None:
-        raise Reject("it is about no classes, and some are expected")
-    return HereCheck(data, graph_data, core_limit)
-
-
-def check_intrinsics(data, graph_data=None, core_limit=CORE_LIMIT, given_data=None, work_limit=None, classes_hash=None):
-    if given_data is not None:
-        raise Unreadable("a certificate of intrinsics supposes nothing but classes; leave out --given")
-    return IntrinsicsCheck(data, graph_data, core_limit, classes_hash)
 
 
 def shown(reason):
@@ -126,9 +134,14 @@ def certificates_in(path):
         return
     try:
         with (gzip.open if path.endswith(".gz") else open)(path, "rb") as file:
-            for number, line in enumerate(file, 1):
-                if line.strip():
+            for number in itertools.count(1):
+                line = file.readline(LINE_LIMIT + 1)
+                if not line or len(line) > LINE_LIMIT:
+                    break
+                if line.strip():  # blank lines hold no certificate
                     yield f"{path}:{number}", line
+            if line:
+                yield f"{path}:{number}", None
     except (OSError, EOFError) as error:
         raise Unreadable(f"{path}: {error}") from None
 
@@ -151,6 +164,8 @@ def check_list(paths, **limits):
     for path in paths:
         for where, data in certificates_in(path):
             try:
+                if data is None:
+                    raise TooLarge(f"a line of more than {LINE_LIMIT} bytes, at which reading ends")
                 statements = check(data, **limits).statements()
                 print(f"VERIFIED {shown(where)}: {'; '.join(statements[1:])}")
                 count[0] += 1
@@ -169,6 +184,8 @@ def main(arguments=None):
     parser.add_argument("certificate", nargs="?", help="a certificate, one JSON text (- is standard input)")
     parser.add_argument("graph", nargs="?", help="the graph that it has to be about")
     parser.add_argument("--given", metavar="FILE", help="what it has to suppose besides the graph; with GRAPH, default nothing")
+    parser.add_argument("--model", help="the model; with GRAPH or any of these, default projective", choices=("projective", "calibrated", "affine"))
+    parser.add_argument("--centres", metavar="HEX", help="the hash of the cameras' centres, for a certificate at given cameras")
     parser.add_argument("--classes", metavar="HEX", help="the hash of the classes, for a certificate of intrinsics")
     parser.add_argument("--list", nargs="+", metavar="FILE", help="many certificates: .json, .jsonl, .jsonl.gz")
     parser.add_argument("--max-core-nodes", type=int, default=CORE_LIMIT, metavar="N", help=f"default {CORE_LIMIT}")
@@ -176,7 +193,8 @@ def main(arguments=None):
     options = parser.parse_args(arguments)
     if bool(options.list) == bool(options.certificate):
         parser.error("give one certificate, or --list with files")
-    if options.list and (options.given or options.classes):
+    named = {"model": options.model, "centres_hash": options.centres, "classes_hash": options.classes}
+    if options.list and (options.given or any(named.values())):
         parser.error("what is given is that of one certificate, not of a --list")
     limits = {"core_limit": options.max_core_nodes, "work_limit": options.max_operations}
     try:
@@ -186,7 +204,7 @@ def main(arguments=None):
         given_data = read_file(options.given) if options.given else None
         text = read_file(options.certificate)
         need_certificate(options.certificate, text, graph_data)
-        done = check(text, graph_data=graph_data, given_data=given_data, classes_hash=options.classes, **limits)
+        done = check(text, graph_data=graph_data, given_data=given_data, **named, **limits)
     except Reject as error:
         print("REJECTED")
         print(shown(error), file=sys.stderr)

@@ -13,7 +13,7 @@ from notation import a_big, a_list, a_number, a_string, an_int, distinct, increa
 class Document:
     """Section 3: one certificate, its graph, and what it supposes besides."""
 
-    def read_document(self, data, graph_data, given_data):
+    def read_document(self, data, graph_data, given_data, expects=False):
         """Section 3: the members; those of later sections, that is bodies, rigid, pieces and solutions, are handed on."""
         document = parse(data) if isinstance(data, bytes) else data
         names = "format version program graph model claim bodies rigid pieces"
@@ -36,7 +36,7 @@ class Document:
         self.projective = self.model == "projective"
         self.read_graph(graph, graph_data)
         self.parts = self.read_known_parts(stated["parts"]) if "parts" in stated else []
-        expects = self.expects = graph_data is not None or given_data is not None
+        self.expects = expects = expects or graph_data is not None or given_data is not None
         nothing = [], None, None
         given_parts, given_hash, self.given_frames = nothing if given_data is None else read_given(given_data, self.graph)
         need(not expects or self.parts == given_parts, "section 3: the known parts that are given are others")

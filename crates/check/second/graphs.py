@@ -100,7 +100,7 @@ def read_pairs(data):
     if not n:
         raise Unreadable("no node in it")
     if max(paired | alone) >= n:
-        raise Unreadable("a number below the largest does not occur")
+        raise Unreadable(f"a number below the largest does not occur{CONVERT}")
     return Graph(n, edges)
 
 

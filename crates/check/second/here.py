@@ -11,9 +11,20 @@ from matrices import bearing_rows, edge_motion, edge_translation, jacobian_rank,
 from notation import Reject, TooLarge, a_big, a_list, a_string, an_int, distinct, members, need, parse, same
 from pieces import Pieces
 
-FORMAT = b"viewcert certificate at cameras"
+FORMAT = "viewcert certificate at cameras"
 MERSENNE = 2**61 - 1
 PRIMES_LIMIT = 10000  # plain Python needs minutes beyond
+
+
+def minors(rows):
+    """Section 14: all minors of as many columns as there are rows, as integers."""
+
+    def determinant(rows):
+        if len(rows) == 1:
+            return rows[0][0]
+        return sum((-1) ** k * x * determinant([row[:k] + row[k + 1 :] for row in rows[1:]]) for k, x in enumerate(rows[0]))
+
+    return [determinant([[row[k] for k in cols] for row in rows]) for cols in itertools.combinations(range(4), len(rows))]
 
 
 def span(vectors):
@@ -50,10 +61,12 @@ class Frames:
     @staticmethod
     def frame(check, body, shared, where):
         inside = [node for node in body if node in shared]
-        while check.span(inside) < 2 or len(inside) > 2 and check.span(inside) == 2:
-            larger = [node for node in body if check.span([*inside, node]) > check.span(inside)]
-            need(larger, f"{where}: the nodes of a body span too little")
-            inside.append(larger[0])
+        basis = check.basis(inside)
+        while len(basis) < 2 or len(inside) > 2 and len(basis) == 2:
+            larger = next((node for node in body if check.span([*basis, node]) > len(basis)), None)
+            need(larger is not None, f"{where}: the nodes of a body span too little")
+            inside.append(larger)
+            basis.append(larger)
         a, *rest = sorted(inside)
         b = next(node for node in rest if check.span([a, node]) == 2)
         off = [node for node in rest if check.span([a, b, node]) == 3]
@@ -74,7 +87,7 @@ class HereCheck(Pieces):
         form, version, program, graph, self.model, cameras, centres, self.claim, bodies, rigid, pieces = members(
             document, names, "section 14: the document"
         )
-        need(same(form, FORMAT.decode()) and same(version, 1), "section 14: another format or version")
+        need(same(form, FORMAT) and same(version, 1), "section 14: another format or version")
         a_string(program, "section 14: program")
         need(self.model in ("projective", "calibrated", "affine"), "section 14: no such model")
         self.projective = self.model == "projective"
@@ -114,11 +127,11 @@ class HereCheck(Pieces):
                 need(len(a_list(camera, "section 14: a camera")) == 12, "section 13: (H2) not twelve entries")
                 numbers = [a_big(x, "section 14: a camera") for x in camera]
                 rows = [numbers[k : k + 4] for k in (0, 4, 8)]
-                need(span(rows) == 3, "section 14: (H2) the rank of a camera is not 3")
+                need(any(minors(rows)), "section 14: (H2) the rank of a camera is not 3")
                 zero = all(sum(x * y for x, y in zip(row, centre)) == 0 for row in rows)
                 need(zero, "section 14: (H2) a camera has another centre")
         for edge in self.graph.edges:
-            need(self.span(edge) == 2, f"section 14: (H3) the centres of {edge} are not apart")
+            need(any(minors([self.centres[node] for node in edge])), f"section 14: (H3) the centres of {edge} are not apart")
         for self.chart in range(3 * self.graph.n + 1):
             self.levels = [self.level(centre) for centre in self.centres]
             if all(self.levels):
@@ -132,6 +145,14 @@ class HereCheck(Pieces):
 
     def span(self, nodes):
         return span([self.centres[node] for node in nodes])
+
+    def basis(self, nodes):
+        """The first of these nodes that span what all of them do."""
+        basis = []
+        for node in nodes:
+            if self.span([*basis, node]) > len(basis):
+                basis.append(node)
+        return basis
 
     # (H4) ------------------------------------------------------------------------------------------------------------
 
@@ -180,26 +201,29 @@ class HereCheck(Pieces):
             self.components += 1
             return of_piece
         need(primes > 0, f"{where}(H8) no primes")
+        bound = self.bound(core, rank)
+        need(primes <= -(-bound // 61), f"{where}(H8) more primes than a proof takes")
         if primes > PRIMES_LIMIT:
             raise TooLarge(f"{where}{primes} primes, the limit is {PRIMES_LIMIT}")
         for q, others in itertools.islice(draws, primes - 1):
             need(self.core_rank(core, others, q) <= rank, f"{where}(H8) the rank modulo {q} is larger")
-        error = self.error(core, rank, primes, where)
+        error = self.error(bound, primes, where)
         if error is not None:
             errors.append(error)
             self.inner.append(error)
         self.classes(group, core, p, points, kernel, classes, where)
         return of_piece
 
-    def error(self, core, rank, primes, where):
-        """(H8), size: nothing if the rank is proved."""
+    def bound(self, core, rank):
+        """Section 14, size: B."""
         digits = max(len(str(abs(x))) for node in core.nodes for x in self.centres[node])
         gamma = -(-10 * digits // 3) + (3 * self.chart.bit_length() + 2 if self.chart else 0)
-        bound = (rank + 1) * (2 * gamma + 2)
         if self.projective:
-            bound = (rank + core.m + 1) * (3 * gamma + 3)
-        elif self.model == "affine":
-            bound = (rank // 4 + 1) * (2 * gamma + 2)
+            return (rank + core.m + 1) * (3 * gamma + 3)
+        return ((rank // 4 if self.model == "affine" else rank) + 1) * (2 * gamma + 2)
+
+    def error(self, bound, primes, where):
+        """(H8): nothing if the rank is proved."""
         if 61 * primes >= bound:
             return None
         error = -primes * (53 - (bound // 61).bit_length())

@@ -548,9 +548,9 @@ class Support:
             increasing(shifts, f"{where}: (S13) shifts")
         else:
             shifts = list(itertools.product(*(range(free + 1) for free in room)))
-        self.meter.charge(SPARSE * len(degrees) * len(shifts) * (len(self.absent) + 1))
-        inside = {tuple(a - b for a, b in zip(exponent, shift)) for exponent in self.absent for shift in shifts}
-        for e in sorted(e for e in inside if all(0 <= x <= d for x, d in zip(e, degrees))):
+        grid, gone = list(itertools.product(*(range(d + 1) for d in degrees))), set(self.absent)
+        self.meter.charge(SPARSE * (len(degrees) + 1) * (len(shifts) * len(grid) * bool(gone) + len(grid)))
+        for e in [e for e in grid if gone and any(tuple(map(sum, zip(e, shift))) in gone for shift in shifts)]:
             self.meter.charge(DENSE * 6 * size * size)
             fits = self.has_transversal(rows, plus, minus_rows, cols, counts, e)
             fits = fits and self.has_choice(rows, plus, minus_rows, cols, e)

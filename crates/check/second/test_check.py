@@ -51,6 +51,8 @@ def evidence(document, kind, piece=0):
 
 class Case(unittest.TestCase):
     def verifies(self, document, **options):
+        if {"graph_data", "given_data"} & options.keys():  # then the model is named as well
+            options.setdefault("model", document.get("model"))
         return check.check(json.dumps(document).encode(), **options)
 
     def rejects(self, document, *words, **options):
@@ -1560,6 +1562,8 @@ class Program(unittest.TestCase):
                 "two.json": two,
                 "rigs.txt": b"displacements " + b"A" * 64,
                 "mixed.jsonl": (text + "\n{\n").encode(),
+                "blank.jsonl": ("\n \t\r\n" + text + "\n\n").encode(),
+                "named.json": text.replace('"name": "4-cycle"', '"name": "viewcert certificate at cameras"').encode(),
                 "empty.json": b"",
                 "named.txt": b"left right\n",
                 "report.json": b'{"program": {"name": "verify"}, "graph": {"nodes": 3}}',
@@ -1587,6 +1591,13 @@ class Program(unittest.TestCase):
         for arguments, code, out, err in (
             (["good.json"], 0, "VERIFIED components: 4 maximal (proof)\n", ""),
             (["good.json", "square.g6"], 0, "VERIFIED", ""),
+            (["good.json", "--model", "projective"], 0, "VERIFIED", ""),
+            (["good.json", "--model", "calibrated"], 1, "REJECTED\n", "the model is projective"),
+            (["good.json", "--classes", "0" * 64], 1, "REJECTED\n", "the classes of cameras are not those"),
+            (["good.json", "--centres", "0" * 64], 1, "REJECTED\n", "the given cameras are not those"),
+            (["named.json"], 0, "VERIFIED", ""),
+            (["--list", "named.json", "--model", "affine"], 2, "", "usage"),
+            (["--list", "blank.jsonl"], 0, "1 verified, 0 rejected", ""),
             (["bad.json"], 1, "REJECTED\n", "the bound is 28, not 27"),
             (["good.json", "odd.txt"], 2, "", "line 2: not node numbers"),
             (["good.json", "named.txt"], 2, "", "line 1: not graph6 (`verify convert` writes"),
@@ -1616,6 +1627,21 @@ class Program(unittest.TestCase):
                 self.assertEqual(got[0], code)
                 self.assertIn(out, got[1])
                 self.assertIn(err, got[2])
+
+    def test_a_line_that_does_not_end(self):
+        """Of a compressed file it may be a thousand times as long: it is not read to its end."""
+        text, most = json.dumps(by_hand()).encode(), check.LINE_LIMIT
+        with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.StringIO()) as out:
+            path = os.path.join(folder, "long.jsonl.gz")
+            with gzip.open(path, "wb") as file:
+                file.write(text + b"\n" + bytes(10 * len(text)) + b"\n" + text)
+            check.LINE_LIMIT = 2 * len(text)
+            try:
+                self.assertEqual(check.check_list([path]), 3)
+            finally:
+                check.LINE_LIMIT = most
+        self.assertIn(f"TOO LARGE {path}:2: a line of more than", out.getvalue())
+        self.assertIn("1 verified, 0 rejected, 1 too large", out.getvalue())
 
     def test_reasons_are_printable_and_short(self):
         shown = check.shown("\x1b[2J\u2028\U0001f600\ud800" + "x" * 500)

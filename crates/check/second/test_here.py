@@ -68,8 +68,18 @@ class HereTests(unittest.TestCase):
         self.refused("no such model", "line", "model", "conformal")
         self.refused("there is no member|is missing", "line", "pieces", ...)
         self.refused("no member|is missing|unknown", "line", "claim", "rank", "required", ...)
-        with self.assertRaisesRegex(notation.Unreadable, "supposes nothing else"):
+        with self.assertRaisesRegex(notation.Reject, "it supposes none"):
             self.verifies(named("line"), given_data=b"part 0 1\n")
+        own = self.verifies(named("line")).centres_hash.hex()
+        graph = named("line")["graph"]["graph6"].encode()
+        for given in ({"graph_data": graph}, {"model": "projective"}, {"centres_hash": "0" * 64}):
+            with self.assertRaisesRegex(notation.Reject, "the given cameras are not those"):
+                self.verifies(named("line"), **given)
+        self.verifies(named("line"), graph_data=graph, centres_hash=own)
+        affine = self.verifies(named("line-affine")).centres_hash.hex()
+        with self.assertRaisesRegex(notation.Reject, "the model is affine"):
+            self.verifies(named("line-affine"), centres_hash=affine)
+        self.verifies(named("line-affine"), centres_hash=affine, model="affine")
         with self.assertRaisesRegex(notation.TooLarge, "the core has"):
             self.verifies(named("psi"), core_limit=3)
 
@@ -127,8 +137,14 @@ class HereTests(unittest.TestCase):
         self.refused("\\(H7\\)", "square", "pieces", 0, "primes", 2)
         self.refused("no primes", "line", "pieces", 0, "primes", 0)
         self.refused("the error is", "digits", "pieces", 0, "primes", 1)
-        with self.assertRaisesRegex(notation.TooLarge, "primes, the limit is"):
-            self.verifies(changed("line", "pieces", 0, "primes", here.PRIMES_LIMIT + 1))
+        self.refused("more primes than a proof takes", "line", "pieces", 0, "primes", 10**15)
+        self.refused("more primes than a proof takes", "digits", "pieces", 0, "primes", 1 + named("digits")["pieces"][0]["primes"])
+        most, here.PRIMES_LIMIT = here.PRIMES_LIMIT, 2
+        try:
+            with self.assertRaisesRegex(notation.TooLarge, "primes, the limit is"):
+                self.verifies(named("digits"))
+        finally:
+            here.PRIMES_LIMIT = most
         rank, ranks = here.HereCheck.core_rank, []
 
         def larger(self, core, points, p):

@@ -103,7 +103,7 @@ class IntrinsicsTests(unittest.TestCase):
         own = self.verifies(named("phones")).classes_hash.hex()
         self.verifies(named("phones"), classes_hash=own)
         alone = self.changed("phones", "shared", [[0, 1, 2, 6], [3, 4]])
-        self.refused("the classes that are expected are others", alone, classes_hash=own)
+        self.refused("the classes of cameras are not those", named("phones"), classes_hash="0" * 64)
         for other in (alone, self.changed("phones", "shared", 0, [0, 1, 2]), self.changed("twins", "shared", ...)):
             self.refused("section 15", other)
 
@@ -128,8 +128,8 @@ class IntrinsicsTests(unittest.TestCase):
         self.refused("another format or version", self.changed("pair", "version", 2))
         self.refused("is missing", self.changed("pair", "motion", ...))
         self.refused("is unknown", {**named("pair"), "model": "projective"})
-        with self.assertRaisesRegex(notation.Unreadable, "supposes nothing but classes"):
-            self.verifies(named("pair"), given_data=b"part 0 1\n")
+        self.refused("it supposes none", named("pair"), given_data=b"part 0 1\n")
+        self.refused("it supposes none", named("pair"), given_data=b"displacements " + b"0" * 64)
         with self.assertRaisesRegex(notation.TooLarge, "columns, the limit is 15"):
             self.verifies(named("mixed"), core_limit=1)
 
@@ -142,14 +142,19 @@ class IntrinsicsTests(unittest.TestCase):
         self.refused("has no edge", self.changed("pair", "graph", alone))
         own = self.verifies(named("pair")).classes_hash.hex()
         self.verifies(named("pair"), classes_hash=own)
-        self.refused("the classes that are expected are others", named("pair"), classes_hash="0" * 64)
+        self.refused("the classes of cameras are not those", named("pair"), classes_hash="0" * 64)
+        # With a graph, or a model, they have to be named.
+        for given in ({"graph_data": b"0 1\n"}, {"model": "projective"}):
+            self.refused("the classes of cameras are not those", named("pair"), **given)
+            self.verifies(named("pair"), classes_hash=own, **given)
+        self.refused("the model is projective", named("pair"), classes_hash=own, model="affine")
         # Other classes are another draw, and another claim.
         self.refused("section 15", self.changed("mixed", "classes", 0, "known"))
         tests = os.path.join(HERE, "..", "tests")
         for path in ("here/line.json", "certificates/added.json"):
             with open(os.path.join(tests, path), "rb") as file:
                 data = file.read()
-            with self.assertRaisesRegex(notation.Reject, "it is about no classes"):
+            with self.assertRaisesRegex(notation.Reject, "are not those that are named"):
                 check.check(data, classes_hash=own)
 
     def test_members(self):

@@ -406,6 +406,16 @@ class Supports(Case):
         wide = {"bounds": [2, 1], "absent": [[1, 1]]}
         self.step("(S14) the coefficient of [0, 1] need not vanish", FEWER, **wide)
 
+    def test_s14_costs_no_product_of_exponents_and_shifts(self):
+        spent, charge = [], solutions.Meter.charge
+        solutions.Meter.charge = lambda meter, operations: (spent.append(operations), charge(meter, operations))[1]
+        try:
+            many = {"bounds": [2047, 1], "absent": [[k, 1] for k in range(2048)]}
+            self.step("(S14) the coefficient of", FEWER, **many)
+        finally:
+            solutions.Meter.charge = charge
+        self.assertLess(sum(spent), 10**7)
+
     def test_s13_shifts(self):
         with open(os.path.join(HERE, "../tests/solutions/balanced.json"), encoding="utf-8") as file:
             document = json.load(file)

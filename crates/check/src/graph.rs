@@ -22,6 +22,8 @@ pub struct Graph {
     pub(crate) displacements: Option<String>,
     /// The hash of the frames of unknown base lines, if there are any.
     pub(crate) frames: Option<String>,
+    /// Whether a certificate may suppose besides what it states.
+    pub(crate) as_stated: bool,
 }
 
 impl Graph {
@@ -56,6 +58,7 @@ impl Graph {
             parts: Vec::new(),
             displacements: None,
             frames: None,
+            as_stated: false,
         })
     }
 
@@ -63,6 +66,12 @@ impl Graph {
     /// specification; lower-case hexadecimal digits), in the place of those it has.
     pub fn with_displacements(mut self, sha256: impl Into<String>) -> Graph {
         self.displacements = Some(sha256.into());
+        self
+    }
+
+    /// The same graph, of which a certificate may suppose besides what it states, as if it held the graph itself.
+    pub fn as_stated(mut self) -> Graph {
+        self.as_stated = true;
         self
     }
 

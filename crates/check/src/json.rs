@@ -156,7 +156,17 @@ pub(crate) struct Big<T>(pub T);
 
 struct Decimal<T>(PhantomData<T>);
 
-impl<T: FromStr> Visitor<'_> for Decimal<T> {
+/// What is read from decimal digits.
+pub(crate) trait Digits: FromStr {
+    /// So many characters at most, where reading takes the square of their number.
+    const MOST: usize = usize::MAX;
+}
+
+impl Digits for u64 {}
+impl Digits for i128 {}
+impl Digits for String {}
+
+impl<T: Digits> Visitor<'_> for Decimal<T> {
     type Value = Big<T>;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -170,13 +180,14 @@ impl<T: FromStr> Visitor<'_> for Decimal<T> {
             [b'1'..=b'9', rest @ ..] => rest.iter().all(u8::is_ascii_digit),
             _ => false,
         };
-        let value = only_spelling.then(|| text.parse().ok()).flatten();
+        let fits = only_spelling && text.len() <= T::MOST;
+        let value = fits.then(|| text.parse().ok()).flatten();
         let wrong = || E::custom(format!("`{text}` is not an integer in range"));
         value.map(Big).ok_or_else(wrong)
     }
 }
 
-impl<T: FromStr> Value for Big<T> {
+impl<T: Digits> Value for Big<T> {
     fn read<'de, D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         from.deserialize_str(Decimal(PhantomData))
     }

@@ -10,7 +10,7 @@
 //!
 //! | what must hold | section | theory | file |
 //! |---|---|---|---|
-//! | the text is of the grammar | 1, 3 | | `document`, by the strict reader in `json` |
+//! | the text is of the grammar | 1, 3 | | `document`, by the strict reader in `json`; `kinds` knows which |
 //! | the graph has the hash | 2, 3 | | `graph`, with the files that hold one |
 //! | known parts are those that are given | 3 | 4.14 | `parts` |
 //! | displacements are well formed, and those that are given | 3 | 13.16 | `displacements` |
@@ -32,6 +32,7 @@
 //! | what is determined at given cameras | 14 | 16.1 to 16.4 | `here`, all of it |
 //! | what is determined of intrinsics | 15 | 17.3, 17.6 to 17.9 | `intrinsics`, all of it |
 //! | the claim is what follows | 8 | 1.3, 4.2, 4.6, 4.8, 4.12, 13.2, 13.17, 13.20 | `claim` |
+//! | it is what is expected, and supposes what is named | 3 | | `expected` |
 //!
 //! `setting` has what all evidence refers to, `pivots` what a minor is. `cameras` draws (section
 //! 4), `matrices`, `elimination` and `algebra` compute, `limits` bounds what that may cost (section
@@ -51,6 +52,7 @@ mod document;
 mod draws;
 mod elimination;
 mod evidence;
+mod expected;
 mod forest;
 mod graph;
 mod here;
@@ -58,6 +60,7 @@ mod integer_minor;
 mod intrinsics;
 mod json;
 mod kernel;
+mod kinds;
 mod limits;
 mod lower;
 mod matrices;
@@ -80,9 +83,11 @@ pub use claim::{Strength, Verdict, Verified};
 pub use displacements::Displacements;
 pub use document::Model;
 pub use document::Number;
+pub use expected::{Expected, VERDICTS};
 pub use graph::Graph;
-pub use here::{HereCertificate, VerifiedHere, is_here};
-pub use intrinsics::{IntrinsicsCertificate, VerifiedIntrinsics, is_of_intrinsics};
+pub use here::{HereCertificate, VerifiedHere};
+pub use intrinsics::{IntrinsicsCertificate, VerifiedIntrinsics};
+pub use kinds::{AnyCertificate, AnyVerified};
 pub use limits::Limits;
 pub use rejection::{Failure, Rejection, TooLarge, Unreadable};
 pub use solutions::Count;
@@ -159,8 +164,8 @@ impl Certificate {
     ) -> Result<Verified, Failure> {
         let Certificate(document) = self;
         let (name, model) = (&document.graph, document.model);
-        let given = graph;
-        let (graph, sha256) = name.find(given).within(|| "graph".into())?;
+        let given = graph.filter(|graph| !graph.as_stated);
+        let (graph, sha256) = name.find(graph).within(|| "graph".into())?;
         let parts = parts::check(document.parts.0.as_ref(), graph.nodes(), given);
         let parts = parts.within(|| "parts".into())?;
         let meter = &limits::Meter::new(limits);

@@ -1,9 +1,7 @@
 //! `viewcert-check CERTIFICATE [GRAPH]`: arguments and files in, what was verified out.
 
-use crate::{
-    Certificate, Failure, Graph, HereCertificate, IntrinsicsCertificate, Limits, Model, Strength,
-    Unreadable, Verdict, Verified, is_here, is_of_intrinsics,
-};
+use crate::rejection::escaped;
+use crate::{AnyCertificate, Expected, Failure, Graph, Limits, Model, Unreadable, VERDICTS};
 use lexopt::Arg::{Long, Short, Value};
 use lexopt::ValueExt;
 use std::ffi::OsString;
@@ -34,18 +32,17 @@ CERTIFICATE and GRAPH are files (`-`: standard input). GRAPH is graph6 or pairs 
 `verify convert` writes them of any other; without it the certificate must hold the graph.
 
 What the certificate must be about (verified, but something else: exit code 1). With GRAPH or any of
-these no known parts and displacements may be supposed but what is given:
-  --expect VERDICT     solvable, finite-solvable or not-finite-solvable
+these the model is projective, and nothing else is supposed, unless it is named:
+  --expect VERDICT     {}
   --model MODEL        projective, calibrated or affine
   --nodes N            the number of nodes
   --edges M            the number of edges
   --sha256 HEX         the hash of the graph
   --given FILE         known parts, or the hashes of known displacements and of frames, as
                        `verify convert --to given` writes them
-
-  --proofs-only        proofs, no error bounds
   --centres HEX        the hash of the cameras' centres, for a certificate at given cameras
   --classes HEX        the hash of the cameras' classes, for a certificate of intrinsics
+  --proofs-only        proofs, no error bounds
 
 Limits (beyond them: exit code 3):
   --max-bytes N        size of each file [{MAX_BYTES}]
@@ -60,11 +57,13 @@ Limits (beyond them: exit code 3):
 Standard output has lines that begin with VERIFIED, or the word REJECTED, or nothing. Reasons are on
 standard error. Exit codes: 0 verified, 1 rejected or not as expected, 2 bad usage or a file that
 cannot be read or is no certificate, 3 too large for the limits.
-"
+",
+        VERDICTS.join(", ")
     )
 }
 
-const MAX_BYTES: u64 = 1 << 31;
+/// Size of a file that is read without being asked for more.
+pub const MAX_BYTES: u64 = 1 << 31;
 
 /// What the command line asks for.
 enum Request {
@@ -81,21 +80,6 @@ struct Arguments {
     max_bytes: u64,
     limits: Limits,
     expected: Expected,
-}
-
-/// What the certificate must be about.
-#[derive(Default)]
-struct Expected {
-    verdict: Option<Verdict>,
-    model: Option<Model>,
-    nodes: Option<usize>,
-    edges: Option<usize>,
-    sha256: Option<String>,
-    /// Whether there is a file of what is given.
-    given: bool,
-    proofs_only: bool,
-    centres: Option<String>,
-    classes: Option<String>,
 }
 
 /// Why there is no answer about the certificate; with the exit code.
@@ -134,7 +118,11 @@ fn print(text: &str) -> Result<(), Stop> {
 
 /// Says something on standard error, where it may get lost: the exit code says it too.
 fn explain(message: &str) {
-    let _ = writeln!(io::stderr(), "viewcert-check: {message}");
+    let _ = writeln!(
+        io::stderr(),
+        "viewcert-check: {}",
+        escaped(message, usize::MAX)
+    );
 }
 
 fn arguments(words: impl IntoIterator<Item = OsString>) -> Result<Request, Stop> {
@@ -168,13 +156,14 @@ fn parse(mut parser: lexopt::Parser) -> Result<Request, lexopt::Error> {
             Long("max-bits") => limits.bits = number(&mut parser)?,
             Long("max-operations") => limits.operations = number(&mut parser)?,
             Value(file) if files.len() < 2 => files.push(file),
+            Long(option) => return Err(other_option(option).into()),
             _ => return Err(argument.unexpected()),
         }
     }
     let mut files = files.into_iter();
     let certificate = files.next().ok_or("no certificate is given")?;
     let graph = files.next();
-    expected.given = given.is_some();
+    (expected.for_graph, expected.given) = (graph.is_some(), given.is_some());
     let inputs = [Some(&certificate), graph.as_ref(), given.as_ref()];
     if inputs
         .into_iter()
@@ -201,14 +190,41 @@ fn number<T: FromStr<Err: Into<Box<dyn std::error::Error + Send + Sync>>>>(
     parser.value()?.parse()
 }
 
-fn verdict(text: &str) -> Result<Verdict, &'static str> {
-    use Verdict::{FiniteSolvable, NotFiniteSolvable, Solvable};
-    let all = [Solvable, FiniteSolvable, NotFiniteSolvable];
-    let found = all.into_iter().find(|verdict| verdict.to_string() == text);
-    found.ok_or("it is solvable, finite-solvable or not-finite-solvable")
+/// Why an option is not known here, and what `verify` does instead.
+fn other_option(option: &str) -> String {
+    let convert = |what: &str| {
+        format!(
+            "--{option} is about files that this program does not read; write one that it reads: `verify convert \
+             {what}`"
+        )
+    };
+    match option {
+        "cameras" => convert("GRAPH --cameras FILE --to given -o GIVEN`, and then `--given GIVEN"),
+        "tracks" | "skip-loops" | "no-rigs" => convert(&format!("GRAPH --{option} -o FILE")),
+        "format" | "columns" | "min-weight" | "variable" | "pipeline" | "min-inliers"
+        | "min-views" | "max-spread" => convert(&format!("GRAPH --{option} .. -o FILE")),
+        "intrinsics" => "--intrinsics is about files that this program does not read; say --classes HEX, the hash that \
+                         `verify GRAPH --intrinsics FILE --json` prints"
+            .into(),
+        "proved" => "--proved: `verify check` asks viewcert-proved as well".into(),
+        _ => format!("there is no option --{option}"),
+    }
 }
 
-fn model(text: &str) -> Result<Model, &'static str> {
+/// A verdict of a certificate of any kind.
+///
+/// # Errors
+/// Which there are.
+pub fn verdict(text: &str) -> Result<String, String> {
+    let known = VERDICTS.contains(&text).then(|| text.to_owned());
+    known.ok_or_else(|| format!("it is one of {}", VERDICTS.join(", ")))
+}
+
+/// A model.
+///
+/// # Errors
+/// Which there are.
+pub fn model(text: &str) -> Result<Model, &'static str> {
     match text {
         "projective" => Ok(Model::Projective),
         "calibrated" => Ok(Model::Calibrated),
@@ -217,7 +233,11 @@ fn model(text: &str) -> Result<Model, &'static str> {
     }
 }
 
-fn hash(text: &str) -> Result<String, &'static str> {
+/// A hash, in lower-case digits.
+///
+/// # Errors
+/// What one looks like.
+pub fn hash(text: &str) -> Result<String, &'static str> {
     let fine = text.len() == 64 && text.bytes().all(|byte| byte.is_ascii_hexdigit());
     let digits = fine.then(|| text.to_ascii_lowercase());
     digits.ok_or("it has 64 hexadecimal digits")
@@ -240,13 +260,7 @@ fn check(arguments: &Arguments) -> Result<u8, Stop> {
             no_certificate(swapped)
         )));
     }
-    if is_here(&text) {
-        return check_here(&text, file, given.is_some(), arguments);
-    }
-    if is_of_intrinsics(&text) {
-        return check_intrinsics(&text, file, given.is_some(), arguments);
-    }
-    let certificate = LazyLock::new(|| Certificate::parse(&text));
+    let certificate = LazyLock::new(|| AnyCertificate::parse(&text));
     // Large files are read side by side; whoever needs the certificate waits for it.
     let graph = std::thread::scope(|scope| {
         if file.is_some() {
@@ -254,7 +268,7 @@ fn check(arguments: &Arguments) -> Result<u8, Stop> {
         }
         let wanted = || {
             let certificate = LazyLock::force(&certificate).as_ref();
-            certificate.ok().map(Certificate::graph_sha256)
+            certificate.ok().map(AnyCertificate::graph_sha256)
         };
         let graph = |(path, file): &Opened| Graph::read(file, wanted).map_err(in_file(path));
         file.as_ref().map(graph)
@@ -273,129 +287,27 @@ fn check(arguments: &Arguments) -> Result<u8, Stop> {
         Ok(certificate) => certificate.check_within(graph.as_ref(), &arguments.limits),
         Err(failure) => Err(failure.clone()),
     };
-    match checked {
-        Ok(verified) => answer(&verified, &arguments.expected),
-        Err(failure) => not_verified(failure),
-    }
-}
-
-fn not_verified(failure: Failure) -> Result<u8, Stop> {
-    match failure {
-        Failure::Rejected(rejection) => {
+    let verified = match checked {
+        Ok(verified) => verified,
+        Err(Failure::Rejected(rejection)) => {
             explain(&rejection.to_string());
-            print("REJECTED\n").map(|()| NOT_VERIFIED)
+            return print("REJECTED\n").map(|()| NOT_VERIFIED);
         }
-        Failure::TooLarge(limit) => Err(Stop {
-            code: TOO_LARGE,
-            message: limit.to_string(),
-        }),
-    }
-}
-
-/// Checks a certificate at given cameras.
-fn check_here(
-    text: &[u8],
-    file: Option<Opened>,
-    given: bool,
-    arguments: &Arguments,
-) -> Result<u8, Stop> {
-    let expected = &arguments.expected;
-    if given || expected.verdict.is_some() {
-        let why =
-            "--given and --expect are about generic cameras; this certificate is about given ones";
-        return Err(Stop::no_answer(why));
-    }
-    let certificate = match HereCertificate::parse(text) {
-        Ok(certificate) => certificate,
-        Err(failure) => return not_verified(failure),
+        Err(Failure::TooLarge(limit)) => {
+            return Err(Stop {
+                code: TOO_LARGE,
+                message: limit.to_string(),
+            });
+        }
     };
-    let wanted = || Some(certificate.graph_sha256());
-    let graph = file.map(|(path, file)| Graph::read(&file, wanted).map_err(in_file(&path)));
-    let checked = certificate.check_within(graph.transpose()?.as_ref(), &arguments.limits);
-    let verified = match checked {
-        Ok(verified) => verified,
-        Err(failure) => return not_verified(failure),
-    };
-    let proved = [verified.rank.1, verified.components.1] == [Strength::Proof; 2];
-    let other = [
-        (
-            expected.model.is_some_and(|model| model != verified.model),
-            "model",
-        ),
-        (
-            differs(&expected.centres, &verified.centres_sha256),
-            "hash of the centres",
-        ),
-        (expected.classes.is_some(), "kind of certificate"),
-        (expected.proofs_only && !proved, "strength"),
-    ];
-    let others = other
-        .into_iter()
-        .filter_map(|(is, what)| is.then_some(what));
-    let others = others.chain(expected.of_graph(verified.size, &verified.sha256));
-    say_if_expected(&verified, others)
-}
-
-/// Checks a certificate of intrinsics; all of it is proved.
-fn check_intrinsics(
-    text: &[u8],
-    file: Option<Opened>,
-    given: bool,
-    arguments: &Arguments,
-) -> Result<u8, Stop> {
-    let expected = &arguments.expected;
-    if given || expected.verdict.is_some() || expected.model.is_some() {
-        let why = "--given, --expect and --model do not go with a certificate of intrinsics";
-        return Err(Stop::no_answer(why));
+    let found = arguments.expected.differences(&verified);
+    if found.is_empty() {
+        let lines = verified.to_string();
+        let lines = lines.lines().map(|line| format!("VERIFIED {line}\n"));
+        return print(&lines.collect::<String>()).map(|()| VERIFIED);
     }
-    let certificate = match IntrinsicsCertificate::parse(text) {
-        Ok(certificate) => certificate,
-        Err(failure) => return not_verified(failure),
-    };
-    let wanted = || Some(certificate.graph_sha256());
-    let graph = file.map(|(path, file)| Graph::read(&file, wanted).map_err(in_file(&path)));
-    let graph = graph.transpose()?;
-    let classes = expected.classes.as_deref();
-    let checked = certificate.check_within(graph.as_ref(), classes, &arguments.limits);
-    let verified = match checked {
-        Ok(verified) => verified,
-        Err(failure) => return not_verified(failure),
-    };
-    let other = expected.centres.is_some().then_some("kind of certificate");
-    let others = expected.of_graph(verified.size, &verified.sha256);
-    let others = other.into_iter().chain(others);
-    say_if_expected(&verified, others)
-}
-
-fn differs(wanted: &Option<String>, is: &String) -> bool {
-    wanted.as_ref().is_some_and(|wanted| wanted != is)
-}
-
-impl Expected {
-    /// What is expected of the graph and is not so.
-    fn of_graph(&self, [nodes, edges]: [usize; 2], sha256: &String) -> Option<&'static str> {
-        let other = [
-            (self.nodes.is_some_and(|n| n != nodes), "number of nodes"),
-            (self.edges.is_some_and(|m| m != edges), "number of edges"),
-            (differs(&self.sha256, sha256), "hash of the graph"),
-        ];
-        let mut other = other.into_iter();
-        other.find(|&(is, _)| is).map(|(_, what)| what)
-    }
-}
-
-/// Says what was verified, if nothing of it is other than expected.
-fn say_if_expected(
-    verified: &dyn std::fmt::Display,
-    mut others: impl Iterator<Item = &'static str>,
-) -> Result<u8, Stop> {
-    if let Some(what) = others.next() {
-        explain(&format!("not what is expected: another {what}"));
-        return Ok(NOT_VERIFIED);
-    }
-    let lines = verified.to_string();
-    let lines = lines.lines().map(|line| format!("VERIFIED {line}\n"));
-    print(&lines.collect::<String>()).map(|()| VERIFIED)
+    explain(&format!("not what is expected: {}", found.join("; ")));
+    Ok(NOT_VERIFIED)
 }
 
 /// Whether a file may be meant as a certificate: an object in JSON that says it is one, or what it
@@ -428,88 +340,6 @@ fn in_file(path: &OsString) -> impl Fn(Unreadable) -> Stop {
 /// The graph with what a file gives.
 fn with_given(graph: Graph, (path, file): &Opened) -> Result<Graph, Stop> {
     graph.with_given(file).map_err(in_file(path))
-}
-
-/// Says what was verified, if it is what was expected.
-fn answer(verified: &Verified, expected: &Expected) -> Result<u8, Stop> {
-    let found = differences(verified, expected);
-    if found.is_empty() {
-        let lines = verified.to_string();
-        let lines = lines.lines().map(|line| format!("VERIFIED {line}\n"));
-        return print(&lines.collect::<String>()).map(|()| VERIFIED);
-    }
-    explain(&format!("not what is expected: {}", found.join("; ")));
-    Ok(NOT_VERIFIED)
-}
-
-/// In what a verified certificate differs from what is expected.
-fn differences(verified: &Verified, expected: &Expected) -> Vec<String> {
-    let mut found = Vec::new();
-    let mut see = |differs: bool, what: String| found.extend(differs.then_some(what));
-    let Expected {
-        verdict,
-        model,
-        nodes,
-        edges,
-        sha256,
-        given,
-        proofs_only,
-        centres,
-        classes,
-    } = expected;
-    see(
-        centres.is_some(),
-        "it is about generic cameras, and none are given".into(),
-    );
-    see(classes.is_some(), "it is about no classes".into());
-    let verified_verdict = verified.verdict.0;
-    see(
-        verdict.is_some_and(|verdict| verdict != verified_verdict),
-        format!("the verdict is {verified_verdict}"),
-    );
-    see(
-        model.is_some_and(|model| model != verified.model),
-        format!("the model is {}", verified.model),
-    );
-    see(
-        nodes.is_some_and(|nodes| nodes != verified.nodes),
-        format!("the graph has {} nodes", verified.nodes),
-    );
-    see(
-        edges.is_some_and(|edges| edges != verified.edges),
-        format!("the graph has {} edges", verified.edges),
-    );
-    see(
-        sha256.as_ref().is_some_and(|hash| *hash != verified.sha256),
-        format!("the graph has the SHA-256 {}", verified.sha256),
-    );
-    // Whoever expects something expects it of the pairs alone, unless they say what else is known.
-    let expects = (verdict.is_some() || model.is_some() || sha256.is_some())
-        || (nodes.is_some() || edges.is_some())
-        || *given;
-    see(
-        expects && !given && verified.parts > 0,
-        format!("{} known parts are taken for given", verified.parts),
-    );
-    if let Some(known) = &verified.displacements {
-        let what = format!("displacements are supposed to be known: {known}");
-        see(expects && !given, what);
-    }
-    if let Some(found) = &verified.base_lines {
-        let what = format!("frames are supposed to be known: SHA-256 {}", found.sha256);
-        see(expects && !given, what);
-    }
-    for (name, strength) in [
-        ("verdict", verified.verdict.1),
-        ("rank", verified.rank.1),
-        ("number of components", verified.components.1),
-    ] {
-        see(
-            *proofs_only && strength != Strength::Proof,
-            format!("the {name} is not proved: {strength}"),
-        );
-    }
-    found
 }
 
 /// Reads a file, or standard input.

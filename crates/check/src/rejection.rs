@@ -62,8 +62,8 @@ impl Failure {
 }
 
 /// A text that may come from a file, in such a form that it cannot pass for something else: on one
-/// line, without control characters, and not too long.
-fn shown(text: &str) -> String {
+/// line, without control characters, and not longer than so many characters.
+pub(crate) fn escaped(text: &str, most: usize) -> String {
     let mut shown = String::new();
     for character in text.chars() {
         let printable = matches!(character, ' '..='~');
@@ -72,12 +72,16 @@ fn shown(text: &str) -> String {
         } else {
             character.escape_default().to_string()
         };
-        if shown.len() + piece.len() > LONGEST_REASON - 3 {
+        if shown.len() + piece.len() > most {
             return shown + "...";
         }
         shown += &piece;
     }
     shown
+}
+
+fn shown(text: &str) -> String {
+    escaped(text, LONGEST_REASON - 3)
 }
 
 impl From<String> for Failure {

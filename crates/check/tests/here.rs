@@ -110,12 +110,37 @@ fn centres() {
     );
 }
 
-/// What is zero modulo both primes that are looked at first, and not zero.
+/// What is zero modulo the prime that is looked at, and not zero, is told apart exactly.
 #[test]
-fn a_chart_that_two_primes_do_not_tell() {
-    let product = ((1_u128 << 61) - 1) * ((1 << 31) - 1);
-    let far = changed("line", "/centres/3/3", json!(product.to_string()));
-    refused("the chart cannot be told", &far);
+fn numbers_that_a_prime_does_not_tell() {
+    let prime = ((1_u64 << 61) - 1).to_string();
+    let product = (((1_u128 << 61) - 1) * ((1 << 31) - 1)).to_string();
+    for far in [&prime, &product] {
+        // The chart is that of t = 0, so that nothing else changes but the place.
+        check(&changed("line", "/centres/3/3", json!(far))).unwrap();
+        // Multiples of one vector are at one place, and others are not.
+        let one = json!(["1", "0", "0", "1"]);
+        let place = json!([far, "0", "0", far]);
+        let same = changed("line", "/centres/0", one.clone());
+        refused("are not apart", &same.with_value("/centres/1", place));
+    }
+    let singular = json!([
+        prime, "0", "0", "1", "0", prime, "0", "1", "0", "0", "0", "0"
+    ]);
+    refused(
+        "the rank is not 3",
+        &changed("matrices", "/cameras/0", singular),
+    );
+    let regular = json!([
+        prime, "0", "0", "1", "0", prime, "0", "1", "0", "0", prime, "1"
+    ]);
+    refused(
+        "the matrix times the centre is not zero",
+        &changed("matrices", "/cameras/0", regular.clone()),
+    );
+    let mut far = changed("matrices", "/cameras/0", regular);
+    far["centres"][0] = json!(["-1", "-1", "-1", prime]);
+    assert!(!check(&far).unwrap_err().to_string().contains("cameras[0]"));
 }
 
 /// Two bodies that share the nodes 0 and 3 are one (rule 2): listed as two, both have the pair in their
@@ -126,13 +151,17 @@ fn bodies_that_share_two_nodes() {
 }
 
 /// A second change.
-trait With {
-    fn with(self, pointer: &str, text: &str) -> Self;
+trait With: Sized {
+    fn with_value(self, pointer: &str, value: Value) -> Self;
+
+    fn with(self, pointer: &str, text: &str) -> Self {
+        self.with_value(pointer, text.into())
+    }
 }
 
 impl With for Value {
-    fn with(mut self, pointer: &str, text: &str) -> Self {
-        *self.pointer_mut(pointer).unwrap() = text.into();
+    fn with_value(mut self, pointer: &str, value: Value) -> Self {
+        *self.pointer_mut(pointer).unwrap() = value;
         self
     }
 }
@@ -180,6 +209,11 @@ fn ranks() {
         &changed("square", "/pieces/0/primes", json!(2)),
     );
     refused("no primes", &changed("line", "/pieces/0/primes", json!(0)));
+    let proof = named("digits")["pieces"][0]["primes"].as_u64().unwrap();
+    for primes in [proof + 1, (1 << 53) - 1] {
+        let more = changed("digits", "/pieces/0/primes", json!(primes));
+        refused(&format!("{primes} primes, and {proof} are a proof"), &more);
+    }
     refused(
         "is too large",
         &changed("digits", "/pieces/0/primes", json!(1)),
@@ -292,4 +326,25 @@ fn limits() {
     };
     let failure = certificate.check_within(None, &limits).unwrap_err();
     assert!(matches!(failure, Failure::TooLarge(_)), "{failure}");
+    // What numbers cost goes by the square of their length, the chart by that of the nodes, primes by their number.
+    let cost = |document: &Value| {
+        let certificate = HereCertificate::parse(document.to_string().as_bytes()).unwrap();
+        let failure = |operations: u64| {
+            let limits = Limits {
+                operations,
+                ..Limits::default()
+            };
+            certificate.check_within(None, &limits).err()
+        };
+        let is_enough =
+            |&operations: &u64| !matches!(failure(operations), Some(Failure::TooLarge(_)));
+        (10..40).map(|bits| 1 << bits).find(is_enough).unwrap()
+    };
+    let digits = |n: usize| {
+        let long = json!(format!("1{}", "0".repeat(n)));
+        changed("matrices", "/cameras/0/0", long)
+    };
+    assert!(cost(&digits(80_000)) >= 8 * cost(&digits(20_000)));
+    assert!(cost(&digits(20_000)) > cost(&named("matrices")));
+    assert!(cost(&named("digits")) > 3 * cost(&changed("digits", "/pieces/0/primes", json!(1))));
 }

@@ -323,6 +323,7 @@ fn hypotheses_are_none_unless_they_are_named() {
         let model = ["calibrated", "projective"][usize::from(certificate == &rig)];
         let graph = file("hypotheses.g6", line.as_bytes());
         assert_eq!(run(&[certificate]).code, 0);
+        let of_model = ["--model", model];
         for arguments in [
             ["--expect", "solvable"],
             ["--model", model],
@@ -333,12 +334,24 @@ fn hypotheses_are_none_unless_they_are_named() {
             let alone = run(&[&arguments[..], &[certificate]].concat());
             assert_eq!((alone.code, alone.out.as_str()), (1, ""), "{arguments:?}");
             assert!(alone.err.contains(reason), "{}", alone.err);
-            let named = [&arguments[..], &[certificate, "--given", &own]].concat();
+            let also = if arguments[0] == "--model" {
+                &[][..]
+            } else {
+                &of_model
+            };
+            let named = [&arguments[..], &[certificate, "--given", &own], also].concat();
             assert_eq!(run(&named).code, 0, "{named:?}");
         }
         let given = run(&[certificate, &graph]);
         assert_eq!((given.code, given.out.as_str()), (1, "REJECTED\n"));
-        assert_eq!(run(&[certificate, &graph, "--given", &own]).code, 0);
+        let named = [
+            &[certificate.as_str(), &graph, "--given", &own][..],
+            &of_model,
+        ]
+        .concat();
+        assert_eq!(run(&named).code, 0);
+        let unnamed = run(&[certificate, &graph, "--given", &own]);
+        assert_eq!(unnamed.code, i32::from(model != "projective"));
     }
     let turning = path("../base_lines/turning");
     let hash = "efb3ef2096bfb158e2fc3d336efe10983dede9f44f455c0cc9156256e99d4d39";
@@ -392,4 +405,32 @@ fn files_that_are_no_certificates() {
     // What says that it is one is judged.
     let hollow = file("hollow.json", b"{\"format\":\"viewcert certificate\"}");
     assert_eq!(run(&[&hollow]).code, 1);
+}
+
+/// Every certificate that is not about pairs alone has to be named with what it supposes.
+#[test]
+fn cameras_and_classes_are_named() {
+    for (name, option, between) in [
+        ("../here/square", "--centres", ("with centres ", "\n")),
+        ("../intrinsics/pair", "--classes", ("with classes ", " ")),
+    ] {
+        let certificate = path(name);
+        let alone = run(&[&certificate]);
+        assert_eq!(alone.code, 0, "{}", alone.err);
+        let hash = alone.out.split(between.0).nth(1).unwrap();
+        let hash = hash.split(between.1).next().unwrap();
+        let model = alone.out.split("model ").nth(1).unwrap_or("projective");
+        let model = model.split('\n').next().unwrap();
+        assert_eq!(run(&[&certificate, "--model", model]).code, 1, "{name}");
+        let named = [&*certificate, "--model", model, option, hash];
+        assert_eq!(run(&named).code, 0, "{name}");
+        let zeros = "0".repeat(64);
+        let other = run(&[&*certificate, "--model", model, option, &zeros]);
+        assert_eq!((other.code, other.out.as_str()), (1, ""));
+        let square = run(&[&*path("square"), option, hash]);
+        assert_eq!((square.code, square.out.as_str()), (1, ""));
+        let parts = file("some-parts.txt", b"part 0 1\n");
+        let given = run(&[&[&*certificate, "--given", &parts][..], &named[1..]].concat());
+        assert_eq!((given.code, given.out.as_str()), (1, "REJECTED\n"));
+    }
 }

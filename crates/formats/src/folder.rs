@@ -172,12 +172,17 @@ fn describe(contents: Option<&Contents>) -> String {
     let Some(contents) = contents else {
         return "no certificates".into();
     };
-    let verdicts = contents.verdicts.iter();
-    let verdicts = verdicts.map(|(verdict, count)| format!("{count} {}", printable(verdict)));
-    let solutions = contents.solutions.iter();
-    let solutions =
-        solutions.map(|(number, count)| format!("{count} with {} solutions", printable(number)));
-    let all: Vec<String> = verdicts.chain(solutions).collect();
+    let counts = [
+        (&contents.models, "", ""),
+        (&contents.verdicts, "", ""),
+        (&contents.solutions, "with ", " solutions"),
+        (&contents.supposed, "supposing ", ""),
+    ];
+    let each = counts.into_iter().flat_map(|(counts, before, behind)| {
+        let each = counts.iter();
+        each.map(move |(word, n)| format!("{n} {before}{}{behind}", printable(word)))
+    });
+    let all: Vec<String> = each.collect();
     format!(
         "{} ({})",
         counted(contents.graphs as usize, "graph"),

@@ -25,7 +25,6 @@ mod own_files;
 pub mod pairs;
 pub mod pickled;
 pub mod plain;
-mod printable;
 pub mod read;
 mod read_as;
 mod recognise;
@@ -43,10 +42,10 @@ pub use given::{Beside, Given, NamedParts, beside, cameras_beside, given, read_g
 pub use intrinsics::{Intrinsics, read_intrinsics};
 pub use matching::{Matching, OtherPair};
 pub use model::Model;
-pub use printable::printable;
 pub use read::{Format, NamedGraph, ReadOptions, open_database, read_graphs, read_meant};
 pub use read_as::{Parsed, ReadAs};
 pub use tracks::{Frames, TrackFacts, TrackOptions};
+pub use viewcert::wording::printable;
 
 /// A note about pairs that were merged, if any were.
 fn merged(count: usize) -> Option<String> {

@@ -42,12 +42,29 @@ pub struct Entry {
 pub struct Contents {
     /// How many graphs they are about.
     pub graphs: u64,
+    /// How many certificates are about each model; of an older manifest, all about the projective one.
+    #[serde(default)]
+    pub models: BTreeMap<String, u64>,
     /// How many certificates prove each verdict.
     pub verdicts: BTreeMap<String, u64>,
     /// Of those that prove finitely many solutions, how many prove which number ("2") or which
     /// bounds ("1-3", "1-").
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub solutions: BTreeMap<String, u64>,
+    /// How many suppose what besides their graphs.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub supposed: BTreeMap<String, u64>,
+}
+
+impl Contents {
+    /// Counts a certificate, but for its graph and the number of solutions.
+    pub fn add(&mut self, model: &str, verdict: &str, supposed: &[&str]) {
+        *self.models.entry(model.into()).or_default() += 1;
+        *self.verdicts.entry(verdict.into()).or_default() += 1;
+        for what in supposed {
+            *self.supposed.entry((*what).into()).or_default() += 1;
+        }
+    }
 }
 
 impl Manifest {
@@ -66,7 +83,14 @@ impl Manifest {
     /// # Errors
     /// What is wrong with it.
     pub fn parse(text: &[u8]) -> Result<Self, String> {
-        let manifest: Self = serde_json::from_slice(text).map_err(|error| error.to_string())?;
+        let mut manifest: Self = serde_json::from_slice(text).map_err(|error| error.to_string())?;
+        let entries = manifest.files.iter_mut();
+        for contents in entries.filter_map(|entry| entry.certificates.as_mut()) {
+            if contents.models.is_empty() {
+                let all = contents.verdicts.values().sum();
+                contents.models.insert("projective".into(), all);
+            }
+        }
         let (format, version) = (&manifest.format, manifest.version);
         if format != FORMAT || version != VERSION {
             return Err(format!(

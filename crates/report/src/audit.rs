@@ -7,6 +7,7 @@ use serde::Serialize;
 use std::io::{self, Write};
 use std::time::Duration;
 use viewcert::decide::Verdict;
+use viewcert::wording::printable;
 use viewcert_audit::FloatVerdict;
 use viewcert_audit::beside::Beside;
 use viewcert_formats::NamedGraph;
@@ -63,7 +64,7 @@ impl Audit<'_> {
 pub fn text(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
     let graph = &audit.input.graph;
     let exact = audit.exact;
-    writeln!(out, "{}", audit.input.name)?;
+    writeln!(out, "{}", printable(&audit.input.name))?;
     writeln!(out, "  read as     {}", audit.input.read)?;
     writeln!(out, "  graph       {}", size(graph))?;
     for note in &audit.input.notes {

@@ -6,6 +6,7 @@ use super::size_of;
 use serde::Serialize;
 use std::io::{self, Write};
 use viewcert::graph::graph6;
+use viewcert::wording::printable;
 use viewcert_catalog::invariants::Invariants;
 use viewcert_catalog::label::{Label, greatest};
 use viewcert_formats::NamedGraph;
@@ -48,7 +49,7 @@ impl<'a> LabelReport<'a> {
     /// Those of the writer.
     pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
         let (input, found) = (self.input, &self.invariants);
-        writeln!(out, "{}", input.name)?;
+        writeln!(out, "{}", printable(&input.name))?;
         writeln!(out, "  read as     {}", input.read)?;
         writeln!(out, "  graph       {}", size_of(input))?;
         for note in &input.notes {

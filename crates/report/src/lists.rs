@@ -5,6 +5,7 @@ use crate::shown::{SHOWN, some_names};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::time::Duration;
+use viewcert::wording::printable;
 use viewcert_advice::lists::{Fixed, Found, Lists};
 use viewcert_formats::NamedGraph;
 
@@ -27,7 +28,7 @@ impl ListReport<'_> {
     /// Those of the writer.
     pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
         let lists = self.lists;
-        writeln!(out, "{}", self.input.name)?;
+        writeln!(out, "{}", printable(&self.input.name))?;
         writeln!(out, "  read as     {}", self.input.read)?;
         writeln!(out, "  graph       {}", size_of(self.input))?;
         for note in &self.input.notes {

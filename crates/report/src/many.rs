@@ -6,6 +6,7 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 use std::time::Duration;
 use viewcert::decide::{Value, Verdict};
+use viewcert::wording::printable;
 use viewcert_formats::csv;
 
 /// How a table is written.
@@ -105,7 +106,7 @@ impl Table {
         let strength = strength(verdict.value_claim().strength);
         let percent = density(nodes, edges);
         let solutions = solutions(verdict);
-        let name = &*report.input.name;
+        let name = &*printable(&report.input.name);
         let width = self.width;
         match self.format {
             Format::Text => {
@@ -169,6 +170,7 @@ impl Table {
     /// # Errors
     /// Those of the writer.
     pub fn failed(&mut self, out: &mut impl Write, name: &str, why: &str) -> io::Result<()> {
+        let (name, why) = (&*printable(name), &*printable(why));
         self.failed += 1;
         let width = self.width;
         match self.format {
@@ -198,7 +200,7 @@ impl Table {
         let shown = COLUMNS.iter().zip(cells);
         let shown = shown.filter(|(head, _)| self.counted || **head != "solutions");
         let mut row = csv::Writer::commas(out);
-        row.row(shown.map(|(_, cell)| cell))?;
+        row.row(shown.map(|(_, cell)| of_no_formula(cell)))?;
         row.finish()
     }
 
@@ -240,6 +242,14 @@ fn solutions(verdict: &Verdict) -> String {
         (least, Some(most)) if least == most => least.to_string(),
         (least, Some(most)) => format!("{least}-{most}"),
         (least, None) => format!("{least}-"),
+    }
+}
+
+/// A cell that no program takes for a formula.
+fn of_no_formula(cell: &str) -> String {
+    match cell != "-" && cell.starts_with(['=', '+', '-', '@']) {
+        true => format!("'{cell}"),
+        false => cell.to_owned(),
     }
 }
 

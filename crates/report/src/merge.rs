@@ -8,6 +8,7 @@ use serde::Serialize;
 use std::io::{self, Write};
 use std::time::Duration;
 use viewcert::Verdict;
+use viewcert::wording::printable;
 use viewcert_advice::export::shell;
 use viewcert_advice::merge::{MERGER, Merge, Merger};
 use viewcert_advice::misfit::{Misfit, OFF, TURNED};
@@ -39,7 +40,7 @@ impl MergeReport<'_> {
             writeln!(out, "  model {}     {model}: {images}, {points}", k + 1)?;
         }
         if let Some((input, _)) = self.tracks {
-            writeln!(out, "  tracks      of {}", input.name)?;
+            writeln!(out, "  tracks      of {}", printable(&input.name))?;
             for note in &input.notes {
                 writeln!(out, "  note        {note}")?;
             }

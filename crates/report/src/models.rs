@@ -8,6 +8,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::io::{self, Write};
 use viewcert::decide::{Strength, Verdict};
 use viewcert::geometry::model::Model;
+use viewcert::wording::printable;
 use viewcert_formats::NamedGraph;
 
 /// How many changes between two models people are shown.
@@ -96,7 +97,7 @@ pub fn text(
     verdicts: &[&Verdict],
     changes: &[Change],
 ) -> io::Result<()> {
-    writeln!(out, "{}", input.name)?;
+    writeln!(out, "{}", printable(&input.name))?;
     writeln!(out, "  read as     {}", input.read)?;
     writeln!(out, "  graph       {}", size_with_parts(input, verdicts[0]))?;
     for note in &input.notes {

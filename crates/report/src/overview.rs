@@ -21,6 +21,7 @@ use std::collections::HashMap;
 use std::io::{self, Write};
 use std::time::Duration;
 use viewcert::graph::UnionFind;
+use viewcert::wording::printable;
 use viewcert_advice::Advice;
 use viewcert_advice::mapper::{Foreseen, Sees};
 use viewcert_advice::named::Suggestion;
@@ -463,7 +464,7 @@ impl Overview<'_> {
     /// # Errors
     /// Those of the writer.
     pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
-        writeln!(out, "{}", self.name)?;
+        writeln!(out, "{}", printable(self.name))?;
         for part in &self.without_base_line {
             wrapped(out, "warning", &part.words())?;
         }

@@ -6,6 +6,7 @@ use serde::Serialize;
 use std::io::{self, Write};
 use std::path::PathBuf;
 use viewcert::decide::Verdict;
+use viewcert::wording::printable;
 use viewcert_audit::claims::Ruling;
 use viewcert_formats::NamedGraph;
 
@@ -47,7 +48,11 @@ pub fn text(out: &mut impl Write, ruled: &Ruled) -> io::Result<()> {
         other => writeln!(out, "; {}", other.reasons())?,
     }
     if let Some(path) = &ruled.certificate {
-        writeln!(out, "          certificate {}", path.display())?;
+        writeln!(
+            out,
+            "          certificate {}",
+            printable(&path.display().to_string())
+        )?;
     }
     Ok(())
 }

@@ -10,6 +10,7 @@ use crate::sheet::{Scene, Sheet};
 use crate::shown::{SHOWN, some_names};
 use serde::Serialize;
 use std::io::{self, Write};
+use viewcert::wording::printable;
 use viewcert_advice::Advice;
 use viewcert_advice::split::{PAGE, Piece, Split};
 
@@ -33,7 +34,7 @@ impl SplitReport<'_> {
     /// Those of the writer.
     pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
         let (report, split) = (&self.report, self.split);
-        writeln!(out, "{}", report.input.name)?;
+        writeln!(out, "{}", printable(&report.input.name))?;
         writeln!(out, "  read as     {}", report.input.read)?;
         for note in &report.input.notes {
             writeln!(out, "  note        {note}")?;

@@ -7,6 +7,7 @@ use viewcert::decide::Strength;
 use viewcert::decide::evidence::{Evidence, Witness};
 use viewcert::decide::{Bound, Component, SolutionCount, Value, Verdict};
 use viewcert::geometry::model::Model;
+use viewcert::wording::printable;
 use viewcert_formats::NamedGraph;
 
 /// How many components are shown with their sizes.
@@ -18,7 +19,7 @@ const SHOWN: usize = 8;
 /// Those of the writer.
 pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
     let (input, verdict) = (report.input, report.verdict);
-    writeln!(out, "{}", input.name)?;
+    writeln!(out, "{}", printable(&input.name))?;
     writeln!(out, "  read as     {}", input.read)?;
     writeln!(out, "  graph       {}", size_with_parts(input, verdict))?;
     if let Some(facts) = &input.database {

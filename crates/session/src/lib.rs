@@ -14,9 +14,19 @@ pub use limits::{MemoryLimit, RunLimits, TimeLimit, default_memory_limit};
 pub use outputs::Outputs;
 pub use progress::{Progress, Told};
 pub use session::Session;
-pub use viewcert_formats::printable;
+pub use viewcert::wording::printable;
 
+use std::fmt::Display;
+use std::io::{self, Write};
 use std::sync::{Mutex, MutexGuard};
+
+/// Says something on standard error, on one line.
+///
+/// # Errors
+/// If it cannot be written.
+pub fn complain(program: &str, what: impl Display) -> io::Result<()> {
+    writeln!(io::stderr(), "{program}: {}", printable(&what.to_string()))
+}
 
 /// What a mutex holds, also if a thread has panicked with it: counters and paths are whole at any time.
 fn unpoisoned<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {

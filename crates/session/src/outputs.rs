@@ -16,6 +16,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard};
 use tempfile::{NamedTempFile, PersistError};
+use viewcert::wording::spelt;
 
 /// The outputs of a run: its temporary files and folders, which are made, and take their names, while
 /// this is locked.
@@ -292,10 +293,28 @@ pub type Text = BufWriter<Box<dyn Write>>;
 pub fn text(outputs: &[Option<&Path>]) -> Text {
     let taken = outputs.iter().flatten().any(|path| is_standard(path));
     BufWriter::new(if taken {
-        Box::new(io::stderr())
+        Box::new(Words(io::stderr()))
     } else {
-        Box::new(io::stdout().lock())
+        Box::new(Words(io::stdout().lock()))
     })
+}
+
+/// What is written for people and for programs that read JSON or tables: of what a terminal would obey the number
+/// is spelt out.
+struct Words<W>(W);
+
+impl<W: Write> Write for Words<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let mut shown = String::with_capacity(bytes.len());
+        let text = String::from_utf8_lossy(bytes);
+        text.chars().for_each(|c| spelt(c, &mut shown));
+        self.0.write_all(shown.as_bytes())?;
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.0.flush()
+    }
 }
 
 /// Prints the one answer of a command on standard output, as JSON or as text, and says by the exit

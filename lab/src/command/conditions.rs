@@ -3,13 +3,12 @@
 use crate::report::conditions as report;
 use anyhow::Result;
 use clap::Args;
-use std::io::BufWriter;
 use std::path::PathBuf;
 use viewcert_cli::InputArguments;
 use viewcert_formats::NamedGraph;
 use viewcert_lab_studies::conditions;
-use viewcert_session::Session;
 use viewcert_session::exit::{GOOD, NOT};
+use viewcert_session::{Session, outputs};
 
 /// Options of the conditions.
 #[derive(Args)]
@@ -27,7 +26,7 @@ pub struct ConditionArguments {
 
 /// Decides the conditions on every graph in turn; a bad one does not stop the others.
 pub fn run(session: &Session, arguments: &ConditionArguments) -> Result<u8> {
-    let mut out = BufWriter::new(std::io::stdout().lock());
+    let mut out = outputs::text(&[]);
     let each = |out: &mut _, input: &NamedGraph, _| {
         let found = conditions::decide(&input.graph);
         if arguments.json {

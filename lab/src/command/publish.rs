@@ -251,10 +251,7 @@ fn certify(out: &mut Files, nodes: usize, progress: &Progress) -> Result<(Counts
             let file = &mut files[usize::from(!solvable)];
             let found = &mut contents[usize::from(!solvable)];
             found.graphs += 1;
-            *found
-                .verdicts
-                .entry(verdict.value.name().into())
-                .or_default() += 1;
+            found.add(verdict.model.name(), verdict.value.name(), &[]);
             if let Some(solutions) = entry.solutions_in_words() {
                 *found.solutions.entry(solutions).or_default() += 1;
             }

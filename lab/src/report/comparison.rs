@@ -3,6 +3,7 @@
 use super::bars::{Chart, Group};
 use serde::Serialize;
 use std::io::{self, Write};
+use viewcert::wording::printable;
 use viewcert_formats::NamedGraph;
 use viewcert_lab_studies::formulation::compare::{Comparison, Line, MatrixLine, Outcome};
 use viewcert_report::json::{GraphLine, write_line};
@@ -15,7 +16,7 @@ use viewcert_report::{counted, size};
 /// Those of the writer.
 pub fn text(out: &mut impl Write, input: &NamedGraph, found: &Comparison) -> io::Result<()> {
     let edges = input.graph.edges().len();
-    writeln!(out, "{}", input.name)?;
+    writeln!(out, "{}", printable(&input.name))?;
     writeln!(out, "  read as     {}", input.read)?;
     writeln!(out, "  graph       {}", size(&input.graph))?;
     for note in &input.notes {

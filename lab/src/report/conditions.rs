@@ -3,6 +3,7 @@
 use serde::Serialize;
 use std::io::{self, Write};
 use viewcert::geometry::model::Model;
+use viewcert::wording::printable;
 use viewcert_formats::NamedGraph;
 use viewcert_lab_studies::conditions::moves::Move;
 use viewcert_lab_studies::conditions::{Answer, Condition, Grounds, refuted, solvable};
@@ -119,7 +120,7 @@ const SHOWN: usize = 12;
 /// # Errors
 /// Those of the writer.
 pub fn text(out: &mut impl Write, input: &NamedGraph, found: &[Condition]) -> io::Result<()> {
-    writeln!(out, "{}", input.name)?;
+    writeln!(out, "{}", printable(&input.name))?;
     writeln!(out, "  read as     {}", input.read)?;
     writeln!(out, "  graph       {}", size(&input.graph))?;
     for note in &input.notes {

@@ -19,7 +19,7 @@ from ._act import _decided
 from ._arguments import listed, whole_if
 from ._check import of_native, text_of
 from ._convert import Node
-from ._errors import InputError
+from ._errors import InputError, Rejected
 from ._graph import Graph, Path, as_graph, on_disk
 from ._kept import Kept
 from ._tables import csv_of
@@ -464,7 +464,7 @@ def check_at_cameras(
         The graph it is about; not needed if the certificate holds it.
     cameras : optional
         The cameras it has to be about, as for :func:`at_cameras`, if a verdict is given for the graph.
-        Without them compare `centres_sha256`.
+        With a graph they have to be named; without one compare `centres_sha256`.
     max_operations : int, optional
         What checking may cost, in elementary operations; by default 2 * 10^12.
 
@@ -502,6 +502,9 @@ def check_at_cameras(
             "cameras: which centres they have depends on the model; give the verdict, which says both "
             "graph and model"
         )
+    if cameras is None and graph is not None and not isinstance(certificate, AtCameras):
+        reason = "it is about given cameras, and none are named: give the verdict for the graph, and the cameras"
+        raise Rejected("centres", reason)
     given = None if graph is None else as_graph(graph)
     found = _native.check_at_cameras(
         text,

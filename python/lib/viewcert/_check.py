@@ -7,8 +7,8 @@ from dataclasses import dataclass, field, fields
 from typing import Any, Iterable, Mapping, Optional, Protocol, Sequence, Tuple, Type, TypeVar, Union
 
 from . import _native
-from ._arguments import whole_if
-from ._errors import InputError
+from ._arguments import one_of, whole_if
+from ._errors import InputError, Rejected
 from ._convert import Node
 from ._graph import Path, as_graph, numbered
 from ._types import BaseLinesValue, Decided, Strength, Value
@@ -117,6 +117,7 @@ def check(
     displacements: Union[
         Mapping[Tuple[Any, Any], Sequence[Number]], Iterable[Iterable[Node]], None
     ] = None,
+    model: Optional[str] = None,
     max_operations: Optional[int] = None,
 ) -> Verified:
     """Verifies a certificate with the independent checker, which shares no code with the prover.
@@ -134,6 +135,8 @@ def check(
     displacements : iterable of iterables of nodes, optional
         The sets of nodes whose displacements it takes for given, in the same way; or their vectors,
         as for `verify`.
+    model : {'projective', 'calibrated', 'affine'}, optional
+        The model it is about (of a verdict its own); if a graph is given and no model, projective.
     max_operations : int, optional
         What checking may cost, in elementary operations; by default 2 * 10^12.
 
@@ -145,7 +148,8 @@ def check(
     Raises
     ------
     Rejected
-        If anything in it does not hold, or cannot be verified; with the step that failed.
+        If anything in it does not hold, or cannot be verified, with the step that failed; or if it supposes
+        what is not named.
     TooLarge
         If checking would cost more than the limits allow.
     InputError
@@ -163,7 +167,14 @@ def check(
     ...
     viewcert.Rejected: graph: the graph given is not the one in `graph6`
     """
+    if model is not None:
+        one_of("model", model, ("projective", "calibrated", "affine"))
     text = text_of(certificate)
+    source = graph if isinstance(graph, Verdict) else certificate
+    if model is None and isinstance(source, Verdict):
+        model = _MODELS.get(source.model, source.model)
+    elif model is None and graph is not None:
+        model = "projective"
     if isinstance(certificate, Verdict) and graph is None:
         graph = certificate.graph
         parts = certificate.parts if parts is None else parts
@@ -176,9 +187,10 @@ def check(
             raise InputError(f"{what}: their nodes are those of a graph; give the graph itself, not a file")
     if isinstance(graph, (str, os.PathLike)):
         found = _native.check(text, file=os.fspath(graph), max_operations=max_operations)
-        return of_native(Verified, found)
+        return _of_model(model, of_native(Verified, found))
     if graph is None:
-        return of_native(Verified, _native.check(text, max_operations=max_operations))
+        found = _native.check(text, max_operations=max_operations)
+        return _of_model(model, of_native(Verified, found))
     given = as_graph(graph)
     known = None if parts is None else numbered(given, parts)
     groups = None if displacements is None else numbered(given, displacements, "displacements")
@@ -190,4 +202,16 @@ def check(
         vectors=coordinates(displacements),
         max_operations=max_operations,
     )
-    return of_native(Verified, found)
+    return _of_model(model, of_native(Verified, found))
+
+
+# Two edges of cameras with unknown focal lengths fix these, and then all is as in the calibrated model.
+_MODELS = {"focal": "calibrated"}
+
+
+def _of_model(model: Optional[str], verified: Verified) -> Verified:
+    """Refuses a certificate of another model than the one that is named."""
+    if model is not None and verified.model != model:
+        reason = f"it is about the {verified.model} model, and {model} is expected; if that is meant, give model="
+        raise Rejected("model", f"{reason}{verified.model!r}")
+    return verified

@@ -351,7 +351,8 @@ class Archive:
     verdicts : dict
         How many prove each verdict.
     supposing : int
-        How many take known parts, displacements or base lines for given; :func:`check` says of each what.
+        How many suppose anything besides their graphs (known parts, displacements, frames of rigs, cameras, classes
+        of cameras); :func:`check` says of each what.
     complete : bool, optional
         Whether all is there, and nothing else, that the manifests of folders name; None if there are none.
     manifest : tuple of str

@@ -8,7 +8,7 @@ from typing import Any, Dict, Hashable, List, Mapping, Optional, Sequence, Tuple
 from . import _native
 from ._act import _asked, _decided
 from ._arguments import whole_if
-from ._errors import InputError
+from ._errors import InputError, Rejected
 from ._check import of_native, text_of
 from ._convert import Node
 from ._graph import Path, as_graph
@@ -336,7 +336,7 @@ def check_intrinsics(
         The graph it is about; not needed if the certificate holds it.
     classes : mapping, optional
         The classes that it has to suppose, with `default` for all other nodes, if a graph is given.
-        Without it compare `classes_sha256`.
+        With a graph they have to be named; without one compare `classes_sha256`.
     sensors : mapping, optional
         Which nodes it has to suppose to share intrinsics, as for :func:`intrinsics`, beside `classes`.
     max_operations : int, optional
@@ -376,6 +376,8 @@ def check_intrinsics(
         raise InputError(
             "classes and sensors: their nodes are those of a graph; give the graph as well"
         )
+    if graph is not None and not (is_supposed or isinstance(certificate, Intrinsics)):
+        raise Rejected("classes", "it supposes classes of cameras, and none are named: give them as well")
     given = None if graph is None else as_graph(graph)
     supposed = None
     if given is not None and is_supposed:

@@ -1,6 +1,6 @@
 //! The text of section 12 as typed values.
 
-use crate::json::{Big, Optional, Value, any_members, objects, present};
+use crate::json::{Big, Digits, Optional, Value, any_members, objects, present};
 use num_bigint::BigInt;
 use serde::de::{Deserializer, Error};
 
@@ -46,6 +46,10 @@ objects! {
     }
     Spurious { values: Vec<Option<Big<u64>>>, steps: Vec<Step> }
     Point { values: Vec<Big<u64>>, steps: Vec<Step> }
+}
+
+impl Digits for BigInt {
+    const MOST: usize = 100_000;
 }
 
 impl<T: Value> Value for Box<T> {

@@ -85,7 +85,8 @@ fn count_nodes(pairs: &[(u32, u32)], alone: &[u32]) -> Result<usize, Unreadable>
     let largest = largest.ok_or_else(|| Unreadable::from("the file holds no node".to_string()))?;
     let missing = |node: usize| {
         format!(
-            "there is a node {largest}, but no node {node}: nodes are numbered from 0, without gaps"
+            "there is a node {largest}, but no node {node}: nodes are numbered from 0, without gaps; `verify convert \
+             GRAPH -o FILE` numbers them so, as for the certificate"
         )
     };
     let nodes = largest as usize + 1;

@@ -3,7 +3,7 @@
 
 use super::Graph;
 use super::file::{fields, lines_of_numbers};
-use crate::rejection::{Unreadable, ensure};
+use crate::rejection::{Checked, Unreadable, ensure};
 
 impl Graph {
     /// The same graph with known parts, in the place of those it has. What comes again counts once;
@@ -37,6 +37,16 @@ impl Graph {
     pub fn with_frames(mut self, sha256: impl Into<String>) -> Graph {
         self.frames = Some(sha256.into());
         self
+    }
+
+    /// Refuses what is given beside a graph, for kinds of certificates that suppose no such thing.
+    pub(crate) fn ensure_bare(given: Option<&Graph>) -> Checked<()> {
+        let is_bare = |graph: &Graph| graph.parts.is_empty() && graph.displacements.is_none();
+        ensure!(
+            given.is_none_or(is_bare),
+            "known parts or displacements are given, and such a certificate supposes none"
+        );
+        Ok(())
     }
 
     /// The same graph with what a file gives.

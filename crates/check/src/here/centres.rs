@@ -2,21 +2,25 @@
 
 use super::document::Document;
 use crate::algebra::{Field, Ring};
-use crate::cameras::{Stream, prime};
+use crate::cameras::Stream;
 use crate::core::Core;
 use crate::document::{Model, Seed};
+use crate::elimination::SPARSE;
 use crate::graph::Graph;
 use crate::json::Big;
-use crate::rejection::{Checked, Within, ensure};
+use crate::limits::Meter;
+use crate::rejection::{Checked, Failure, Within, ensure};
+use num_bigint::BigInt;
 use sha2::{Digest, Sha256};
 
-/// The prime modulo which places are told apart.
+/// The prime modulo which nodes are independent.
 const MERSENNE: u64 = (1 << 61) - 1;
 
 /// The centres of all nodes.
 pub(super) struct Centres<'a> {
     model: Model,
     places: &'a [[Big<String>; 4]],
+    exact: Vec<[BigInt; 4]>,
     residues: Vec<[u64; 4]>,
     field: Field,
     /// The t of the chart.
@@ -43,7 +47,7 @@ fn digits(number: &Big<String>) -> usize {
 
 impl<'a> Centres<'a> {
     /// Verifies (H1) to (H3).
-    pub fn new(document: &'a Document, graph: &Graph) -> Checked<Centres<'a>> {
+    pub fn new(document: &'a Document, graph: &Graph, meter: &Meter) -> Checked<Centres<'a>> {
         let (places, nodes) = (&document.centres[..], graph.nodes());
         ensure!(
             places.len() == nodes,
@@ -58,6 +62,12 @@ impl<'a> Centres<'a> {
             hash.update(b"\n");
         }
         let field = Field::new(MERSENNE)?;
+        let mut exact = Vec::with_capacity(nodes);
+        for [x, y, z, w] in places {
+            let numbers = [x, y, z, w].map(|digits| integer(digits, meter));
+            let [x, y, z, w] = numbers;
+            exact.push([x?, y?, z?, w?]);
+        }
         let residue = |place: &[Big<String>; 4]| [0, 1, 2, 3].map(|k| field.decimal(&place[k].0));
         for (v, place) in places.iter().enumerate() {
             let is_zero = |x: &Big<String>| x.0 == "0";
@@ -72,6 +82,7 @@ impl<'a> Centres<'a> {
         let mut centres = Centres {
             model: document.model,
             places,
+            exact,
             residues: places.iter().map(residue).collect(),
             field,
             chart: 0,
@@ -85,51 +96,66 @@ impl<'a> Centres<'a> {
             );
             for (v, camera) in cameras.iter().enumerate() {
                 centres
-                    .check_camera(camera, v)
+                    .check_camera(camera, v, meter)
                     .within(|| format!("cameras[{v}]"))?;
             }
         }
         for &[i, j] in &graph.pairs {
             ensure!(
-                centres.rank(&[i, j]) == 2,
+                centres.are_apart([i, j], meter)?,
                 "the centres of the edge [{i}, {j}] are not apart"
             );
         }
-        centres.chart = centres.chart(nodes)?;
+        centres.chart = centres.chart(nodes, meter)?;
         Ok(centres)
     }
 
     /// A camera of rank 3 with this centre (H2).
-    fn check_camera(&self, camera: &[Big<String>], v: usize) -> Checked<()> {
+    fn check_camera(&self, camera: &[Big<String>], v: usize, meter: &Meter) -> Checked<()> {
         ensure!(
             camera.len() == 12,
             "{} entries instead of twelve",
             camera.len()
         );
+        let entries = camera.iter().map(|digits| integer(digits, meter));
+        let entries = entries.collect::<Checked<Vec<BigInt>>>()?;
+        let bits = longest(&entries);
         let rows = camera
             .chunks(4)
             .map(|row| [0, 1, 2, 3].map(|k| self.field.decimal(&row[k].0)));
-        ensure!(span(&self.field, rows) == 3, "the rank is not 3");
-        let longest = |numbers: &[Big<String>]| bits(numbers.iter().map(digits).max().unwrap_or(0));
-        // A sum of four products, and its sign.
-        let size = longest(camera) + longest(&self.places[v]) + 3;
-        let mut stream = primes([&self.sha256; 3]);
-        let mut seen = Vec::new();
-        while 61 * (seen.len() as u64) < size {
-            let field = prime(&mut stream)?;
-            if seen.contains(&field.p) {
-                continue;
-            }
-            for row in camera.chunks(4) {
-                let terms = row.iter().zip(&self.places[v]);
-                let sum = terms.fold(0, |sum, (a, b)| {
-                    field.add(sum, field.mul(field.decimal(&a.0), field.decimal(&b.0)))
-                });
-                ensure!(sum == 0, "the matrix times the centre is not zero");
-            }
-            seen.push(field.p);
+        if span(&self.field, rows) < 3 {
+            charge_products(meter, 48, [2 * bits, bits])?;
+            let minor = |[a, b, c]: [usize; 3]| {
+                let pair = |i: usize, j: usize| {
+                    &entries[4 + i] * &entries[8 + j] - &entries[4 + j] * &entries[8 + i]
+                };
+                &entries[a] * pair(b, c) + &entries[b] * pair(c, a) + &entries[c] * pair(a, b)
+            };
+            let minors = [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]];
+            let is_zero = |columns| minor(columns) == BigInt::ZERO;
+            ensure!(!minors.into_iter().all(is_zero), "the rank is not 3");
+        }
+        let centre = &self.exact[v];
+        charge_products(meter, 12, [bits, longest(centre)])?;
+        for row in entries.chunks(4) {
+            let sum: BigInt = row.iter().zip(centre).map(|(a, b)| a * b).sum();
+            ensure!(
+                sum == BigInt::ZERO,
+                "the matrix times the centre is not zero"
+            );
         }
         Ok(())
+    }
+
+    /// Whether the centres of two nodes are linearly independent.
+    fn are_apart(&self, [i, j]: [u32; 2], meter: &Meter) -> Checked<bool> {
+        if self.rank(&[i, j]) == 2 {
+            return Ok(true);
+        }
+        let [a, b] = [i, j].map(|v| &self.exact[v as usize]);
+        charge_products(meter, 12, [longest(a), longest(b)])?;
+        let mut pairs = (0..4).flat_map(|k| (0..k).map(move |l| (k, l)));
+        Ok(pairs.any(|(k, l)| &a[k] * &b[l] != &a[l] * &b[k]))
     }
 
     /// The dimension that the centres of nodes span.
@@ -140,43 +166,38 @@ impl<'a> Centres<'a> {
         )
     }
 
-    /// The least t at which no centre is at infinity. What is not zero modulo one of two primes is not
-    /// zero; what is zero modulo both is refused.
-    fn chart(&self, nodes: usize) -> Checked<u64> {
-        let other = Field::new((1 << 31) - 1)?;
+    /// The least t at which no centre is at infinity.
+    fn chart(&self, nodes: usize, meter: &Meter) -> Checked<u64> {
+        let field = &self.field;
         for t in 0..=3 * nodes as u64 {
-            let zeros = |field: &Field| {
-                let level = |place| self.level(field, place, t);
-                self.places.iter().filter(|place| level(place) == 0).count()
-            };
-            if zeros(&self.field).min(zeros(&other)) == 0 {
+            meter.charge(4 * SPARSE * nodes as u64)?;
+            let at = field.element(t);
+            let mut fits = true;
+            for (residues, exact) in self.residues.iter().zip(&self.exact) {
+                let terms = self.coefficients(residues.each_ref(), &0).into_iter().rev();
+                let level = terms.fold(0, |sum, &value| field.add(field.mul(sum, at), value));
+                // What is not zero modulo a prime is not zero.
+                if level == 0 {
+                    charge_products(meter, 4, [longest(exact) + 64, 64])?;
+                    let terms = self.coefficients(exact.each_ref(), &BigInt::ZERO);
+                    let terms = terms.into_iter().rev();
+                    let level = terms.fold(BigInt::ZERO, |sum, value| sum * t + value);
+                    fits &= level != BigInt::ZERO;
+                }
+            }
+            if fits {
                 return Ok(t);
             }
-            // A level that is zero in truth is zero modulo all primes.
-            let exact = self.places.iter().any(|place| self.is_zero_level(place, t));
-            ensure!(exact, "the chart cannot be told modulo two primes");
         }
-        Err(crate::Failure::rejected("there is no chart"))
+        Err(Failure::rejected("there is no chart"))
     }
 
-    /// Whether l_t of a place is zero modulo more primes than it could be a product of.
-    fn is_zero_level(&self, place: &[Big<String>; 4], t: u64) -> bool {
-        let longest = place.iter().map(digits).max().unwrap_or(0);
-        let size = bits(longest) + self.chart_bits(t) + 2;
-        let mut stream = primes([&self.sha256; 3]);
-        let mut seen = Vec::new();
-        while 61 * (seen.len() as u64) < size {
-            let Ok(field) = prime(&mut stream) else {
-                return false;
-            };
-            if !seen.contains(&field.p) {
-                if self.level(&field, place, t) != 0 {
-                    return false;
-                }
-                seen.push(field.p);
-            }
+    /// The coefficients of l_t, from that of 1 on.
+    fn coefficients<T>(&self, [x, y, z, w]: [T; 4], zero: T) -> [T; 4] {
+        match self.model {
+            Model::Affine => [z, x, y, zero],
+            _ => [w, x, y, z],
         }
-        true
     }
 
     fn chart_bits(&self, t: u64) -> u64 {
@@ -186,14 +207,29 @@ impl<'a> Centres<'a> {
 
     /// l_t of a place.
     fn level(&self, field: &Field, place: &[Big<String>; 4], t: u64) -> u64 {
-        let [x, y, z, w] = [0, 1, 2, 3].map(|k| field.decimal(&place[k].0));
-        let coefficients = match self.model {
-            Model::Affine => [z, x, y, 0],
-            _ => [w, x, y, z],
-        };
+        let residues = [0, 1, 2, 3].map(|k| field.decimal(&place[k].0));
         let t = field.element(t);
-        let terms = coefficients.into_iter().rev();
+        let terms = self.coefficients(residues, 0).into_iter().rev();
         terms.fold(0, |sum, value| field.add(field.mul(sum, t), value))
+    }
+
+    /// Nodes that span what these do, and no more of them than that takes.
+    pub fn basis(&self, nodes: &[u32]) -> Vec<u32> {
+        let mut basis = Vec::new();
+        for &v in nodes {
+            basis.push(v);
+            if self.rank(&basis) < basis.len() {
+                basis.pop();
+            }
+        }
+        basis
+    }
+
+    /// How many operations the points of nodes take modulo a prime.
+    pub fn cost(&self, nodes: &[u32]) -> u64 {
+        let digits = nodes.iter().flat_map(|&v| &self.places[v as usize]);
+        let words = digits.map(|digits| digits.0.len() as u64 / 18 + 1);
+        2 * SPARSE * words.sum::<u64>()
     }
 
     /// The gamma of section 14 for the nodes of a core.
@@ -262,6 +298,25 @@ impl<'a> Centres<'a> {
         }
         Ok(())
     }
+}
+
+/// An integer of any size; reading it takes the square of its length.
+fn integer(Big(digits): &Big<String>, meter: &Meter) -> Checked<BigInt> {
+    let words = digits.len() as u64 / 18 + 1;
+    meter.charge(words.saturating_mul(words))?;
+    let wrong = |_| Failure::rejected(format!("`{digits}` is not an integer"));
+    digits.parse().map_err(wrong)
+}
+
+/// Counts so many products of integers with these numbers of bits at most.
+fn charge_products(meter: &Meter, products: u64, bits: [u64; 2]) -> Checked<()> {
+    let [a, b] = bits.map(|bits| bits / 64 + 1);
+    meter.charge(products.saturating_mul(a).saturating_mul(b))
+}
+
+/// The bits of the longest of some numbers.
+fn longest(numbers: &[BigInt]) -> u64 {
+    numbers.iter().map(BigInt::bits).max().unwrap_or(0)
 }
 
 /// The dimension that some vectors span.

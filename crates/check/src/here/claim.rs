@@ -30,13 +30,19 @@ pub struct VerifiedHere {
     pub components: (i64, Strength),
 }
 
+impl VerifiedHere {
+    /// The verdict, in the word of the specification.
+    pub fn verdict(&self) -> &'static str {
+        match self.is_determined {
+            true => "determined",
+            false => "not-determined",
+        }
+    }
+}
+
 impl fmt::Display for VerifiedHere {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let is = if self.is_determined {
-            "determined"
-        } else {
-            "not-determined"
-        };
+        let is = self.verdict();
         let [nodes, edges] = self.size;
         writeln!(f, "graph {} ({nodes} nodes, {edges} edges)", self.sha256)?;
         writeln!(f, "at cameras with centres {}", self.centres_sha256)?;

@@ -72,11 +72,11 @@ fn frame(body: &[u32], shared: &[u32], at: &Centres) -> Checked<Vec<(u32, u32)>>
     let is_shared = |v: &&u32| shared.binary_search(v).is_ok();
     let mut inside: Vec<u32> = body.iter().filter(is_shared).copied().collect();
     loop {
-        let rank = at.rank(&inside);
-        if rank > 2 || rank == 2 && inside.len() == 2 {
+        let basis = at.basis(&inside);
+        if basis.len() > 2 || basis.len() == 2 && inside.len() == 2 {
             break;
         }
-        let raises = |v: &&u32| at.rank(&[&inside[..], &[**v]].concat()) == rank + 1;
+        let raises = |v: &&u32| at.rank(&[&basis[..], &[**v]].concat()) > basis.len();
         match body.iter().find(raises) {
             Some(&v) => inside.push(v),
             None => {

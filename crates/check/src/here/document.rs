@@ -6,7 +6,7 @@ use crate::rejection::{Checked, Failure};
 use serde::de::{Deserializer, Error};
 
 /// What the member `format` says.
-pub(super) const FORMAT: &str = "viewcert certificate at cameras";
+pub(crate) const FORMAT: &str = "viewcert certificate at cameras";
 
 objects! {
     Document {
@@ -25,7 +25,7 @@ objects! {
 }
 
 #[derive(Debug)]
-pub(super) struct Format;
+pub(crate) struct Format;
 
 impl Value for Format {
     fn read<'de, D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
@@ -37,7 +37,7 @@ impl Value for Format {
 }
 
 #[derive(Debug)]
-pub(super) struct Version;
+pub(crate) struct Version;
 
 impl Value for Version {
     fn read<'de, D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {

@@ -8,6 +8,7 @@ mod document;
 mod primes;
 
 pub use claim::VerifiedHere;
+pub(crate) use document::FORMAT;
 
 use crate::algebra::Field;
 use crate::bodies::Known;
@@ -25,18 +26,11 @@ use crate::{Graph, Limits};
 use centres::Centres;
 use claim::claim;
 use document::{Class, Document, Piece, Split};
-use primes::{Primes, error};
-
-/// Whether a text says that it is such a certificate.
-pub fn is_here(text: &[u8]) -> bool {
-    let format = format!("\"{}\"", document::FORMAT);
-    text.windows(format.len())
-        .any(|word| word == format.as_bytes())
-}
+use primes::{Primes, bound, error};
 
 /// A certificate at given cameras that has been parsed, but not verified.
 #[derive(Debug)]
-pub struct HereCertificate(Document);
+pub struct HereCertificate(pub(crate) Document);
 
 impl HereCertificate {
     /// Reads the JSON text.
@@ -45,11 +39,6 @@ impl HereCertificate {
     /// What is wrong with it.
     pub fn parse(text: &[u8]) -> Result<Self, Failure> {
         document::parse(text).map(HereCertificate)
-    }
-
-    /// The hash of the graph that the certificate names.
-    pub fn graph_sha256(&self) -> &str {
-        &self.0.graph.sha256
     }
 
     /// Verifies it, for the given graph or the one that it holds.
@@ -62,14 +51,17 @@ impl HereCertificate {
         limits: &Limits,
     ) -> Result<VerifiedHere, Failure> {
         let HereCertificate(document) = self;
+        Graph::ensure_bare(graph)?;
         let (graph, sha256) = document.graph.find(graph).within(|| "graph".into())?;
-        let centres = &Centres::new(document, &graph).within(|| "centres".into())?;
+        let meter = &Meter::new(limits);
+        let centres = Centres::new(document, &graph, meter).within(|| "centres".into())?;
         centres.check_bodies(document)?;
+        let centres = &centres;
         let setting = &Setting {
             model: document.model,
             sha256,
             vectors: None,
-            meter: &Meter::new(limits),
+            meter,
         };
         let known = Known {
             parts: &[],
@@ -154,18 +146,19 @@ impl Checker<'_> {
             return Ok(());
         }
         ensure!(piece.primes > 0, "no primes");
+        let bound = bound(setting.model, rank, &core, self.centres.bits(&nodes));
+        let most = bound.div_ceil(61);
+        ensure!(
+            piece.primes <= most,
+            "{} primes, and {most} are a proof",
+            piece.primes
+        );
         for _ in 1..piece.primes {
             let (field, points) = primes.next()?;
             let other = self.rank(&field, &points, &core)?;
             ensure!(other <= rank, "the rank modulo a prime is {other}");
         }
-        let error = error(
-            setting.model,
-            rank,
-            piece.primes,
-            &core,
-            self.centres.bits(&nodes),
-        )?;
+        let error = error(piece.primes, bound)?;
         found.errors.extend(error);
         found.inner.extend(error);
         self.classes(piece, part, (&core, &first, &points), found)

@@ -5,8 +5,13 @@ use crate::algebra::Field;
 use crate::cameras::{Stream, prime};
 use crate::core::Core;
 use crate::document::Model;
+use crate::limits::Meter;
 use crate::rejection::{Checked, Failure, ensure};
 use crate::structure::Structure;
+use std::collections::HashSet;
+
+/// Operations that it takes to find a prime.
+const PRIME: u64 = 1 << 13;
 
 /// The primes of a core that are not left out.
 pub(super) struct Primes<'a> {
@@ -14,13 +19,15 @@ pub(super) struct Primes<'a> {
     centres: &'a Centres<'a>,
     core: &'a Core,
     nodes: &'a [u32],
-    seen: Vec<u64>,
+    seen: HashSet<u64>,
+    meter: &'a Meter,
+    cost: u64,
 }
 
 impl<'a> Primes<'a> {
     /// Those of a core, on these nodes of the graph.
     pub(super) fn new(
-        structure: &Structure,
+        structure: &'a Structure,
         centres: &'a Centres<'a>,
         (core, nodes): (&'a Core, &'a [u32]),
     ) -> Self {
@@ -30,19 +37,22 @@ impl<'a> Primes<'a> {
             centres,
             core,
             nodes,
-            seen: Vec::new(),
+            seen: HashSet::new(),
+            meter: structure.setting.meter,
+            cost: PRIME + centres.cost(nodes),
         }
     }
 
     pub(super) fn next(&mut self) -> Checked<(Field, Vec<[u64; 3]>)> {
         // Those that are left out divide some number of the certificate: they are few.
         for _ in 0..1000 {
+            self.meter.charge(self.cost)?;
             let field = prime(&mut self.stream)?;
             if self.seen.contains(&field.p) {
                 continue;
             }
             if let Some(points) = self.centres.points(&field, self.nodes, self.core) {
-                self.seen.push(field.p);
+                self.seen.insert(field.p);
                 return Ok((field, points));
             }
         }
@@ -50,21 +60,20 @@ impl<'a> Primes<'a> {
     }
 }
 
-/// The exponent of the error of an upper bound, or nothing if it is a proof (H8; theory, 16.3).
-pub(super) fn error(
-    model: Model,
-    rank: i64,
-    primes: u64,
-    core: &Core,
-    bits: u64,
-) -> Checked<Option<i64>> {
+/// So many bits of primes that divide all minors of a size prove that these are zero (B of section 14; theory,
+/// 16.3).
+pub(super) fn bound(model: Model, rank: i64, core: &Core, bits: u64) -> u64 {
     let (rank, edges) = (rank as u64, core.edges.len() as u64);
-    let bound = match model {
+    match model {
         Model::Projective => (rank + edges + 1) * (3 * bits + 3),
         Model::Calibrated => (rank + 1) * (2 * bits + 2),
         Model::Affine => (rank / 4 + 1) * (2 * bits + 2),
-    };
-    if primes.saturating_mul(61) >= bound {
+    }
+}
+
+/// The exponent of the error of an upper bound, or nothing if it is a proof (H8; theory, 16.3).
+pub(super) fn error(primes: u64, bound: u64) -> Checked<Option<i64>> {
+    if primes * 61 >= bound {
         return Ok(None);
     }
     let size = i64::from(64 - (bound / 61).leading_zeros());

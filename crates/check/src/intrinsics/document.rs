@@ -5,7 +5,7 @@ use crate::json::{Big, Optional, Strict, objects};
 use crate::rejection::{Checked, Failure, ensure};
 
 /// What the member `format` says.
-pub(super) const FORMAT: &str = "viewcert certificate of intrinsics";
+pub(crate) const FORMAT: &str = "viewcert certificate of intrinsics";
 
 objects! {
     Document {

@@ -18,6 +18,7 @@ use crate::setting::Setting;
 use crate::structure::Structure;
 use crate::{Graph, Limits};
 use document::Document;
+pub(crate) use document::FORMAT;
 use members::Members;
 use sensors::{Class, Sensors};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -77,16 +78,9 @@ impl fmt::Display for VerifiedIntrinsics {
     }
 }
 
-/// Whether a text says that it is such a certificate.
-pub fn is_of_intrinsics(text: &[u8]) -> bool {
-    let format = format!("\"{}\"", document::FORMAT);
-    text.windows(format.len())
-        .any(|word| word == format.as_bytes())
-}
-
 /// A certificate of intrinsics that has been parsed, but not verified.
 #[derive(Debug)]
-pub struct IntrinsicsCertificate(Document);
+pub struct IntrinsicsCertificate(pub(crate) Document);
 
 impl IntrinsicsCertificate {
     /// Reads the JSON text.
@@ -95,11 +89,6 @@ impl IntrinsicsCertificate {
     /// What is wrong with it.
     pub fn parse(text: &[u8]) -> Result<Self, Failure> {
         document::parse(text).map(IntrinsicsCertificate)
-    }
-
-    /// The hash of the graph that the certificate names.
-    pub fn graph_sha256(&self) -> &str {
-        &self.0.graph.sha256
     }
 
     /// Verifies it, for the given graph or the one that it holds; if a hash of the classes is given, for
@@ -114,6 +103,7 @@ impl IntrinsicsCertificate {
         limits: &Limits,
     ) -> Result<VerifiedIntrinsics, Failure> {
         let IntrinsicsCertificate(document) = self;
+        Graph::ensure_bare(graph)?;
         let (graph, sha256) = document.graph.find(graph).within(|| "graph".into())?;
         let sensors = &Sensors::new(document, &graph).within(|| "classes".into())?;
         let hash = sensors.hash(&document.classes);

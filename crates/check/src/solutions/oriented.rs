@@ -94,6 +94,8 @@ struct At<'a> {
     cameras: Vec<[[Polynomial; 4]; 3]>,
     /// A and B of each pair.
     sides: Vec<[Vec<Polynomial>; 2]>,
+    /// The length of the longest number.
+    words: u64,
     meter: &'a Meter,
 }
 
@@ -110,10 +112,18 @@ impl<'a> At<'a> {
         );
         let pairs: Vec<(usize, usize)> = lists.iter().flat_map(|list| pairs_of(list)).collect();
         let numbers = place.cameras.iter().flatten().flatten();
-        let bits = numbers.chain(&place.eliminant).map(|Big(x)| x.bits()).max();
-        let words = 1 + bits.unwrap_or(0) / 30;
-        let products = (nodes + pairs.len()) as u64 * 100 * (others as u64 + 1).pow(2);
-        meter.charge((SPARSE * products).saturating_mul(words * words))?;
+        let numbers = numbers.chain(place.centres.iter().flatten());
+        let of_roots = place.roots.iter().flat_map(|root| {
+            let plane = root.plane.iter().flatten();
+            plane.chain(&root.between)
+        });
+        let numbers = numbers.chain(&place.eliminant).chain(of_roots);
+        let bits = numbers.map(|Big(x)| x.bits()).max().unwrap_or(0);
+        let (words, degree) = (1 + bits / 30, others as u64 + 1);
+        let products = (nodes + pairs.len()) as u64 * 100 * degree.pow(2);
+        let of_roots = 16 * degree.pow(3) * degree.max(place.roots.len() as u64);
+        let products = (SPARSE * products).saturating_add(of_roots);
+        meter.charge(products.saturating_mul(words * words))?;
         let eliminant = polynomial(&place.eliminant, others + 1)?;
         ensure!(
             eliminant.0.len() == others + 1,
@@ -128,6 +138,7 @@ impl<'a> At<'a> {
             eliminant,
             cameras,
             sides: Vec::new(),
+            words,
             meter,
         };
         at.check_centres(lists)?;
@@ -341,9 +352,9 @@ impl<'a> At<'a> {
     /// (S33).
     fn is_oriented(&self, root: &Root, centres: &[[Polynomial; 4]]) -> Checked<bool> {
         let ends = root.between.each_ref().map(|Big(x)| x);
-        let words = 1 + ends.iter().map(|x| x.bits()).max().unwrap_or(0) / 30;
         let steps = SPARSE * 100 * (self.pairs.len() * self.eliminant.0.len()) as u64;
-        self.meter.charge(steps.saturating_mul(words * words))?;
+        self.meter
+            .charge(steps.saturating_mul(self.words * self.words))?;
         let signs = self.sides.iter().map(|[a, b]| {
             let sum = Polynomial::dot(a, b);
             Ok(sum.sign_between(ends)? == Sign::Plus)

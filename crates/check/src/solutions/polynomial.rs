@@ -80,6 +80,19 @@ impl Polynomial {
         rest
     }
 
+    /// The same without a common factor of the coefficients.
+    fn primitive(mut self) -> Self {
+        let common = self.0.iter().fold(BigInt::ZERO, |gcd, a| {
+            let (mut a, mut b): (BigInt, BigInt) = (gcd, a.magnitude().clone().into());
+            while b != BigInt::ZERO {
+                (a, b) = (b.clone(), a % b);
+            }
+            a
+        });
+        self.0.iter_mut().for_each(|a| *a /= &common);
+        self
+    }
+
     /// The sign at the fraction `numerator / denominator`, of which the denominator is positive.
     pub fn sign_at(&self, numerator: &BigInt, denominator: &BigInt) -> Sign {
         let mut value = BigInt::default();
@@ -119,7 +132,8 @@ impl Polynomial {
         while let [.., before, last] = &sequence[..]
             && last.0.len() > 1
         {
-            let next = before.rest(last).negative();
+            // Without their common factors the coefficients would grow exponentially.
+            let next = before.rest(last).negative().primitive();
             sequence.push(next);
         }
         let ends = sequence

@@ -108,7 +108,6 @@ impl Draft {
                 }),
             }),
             Model::Calibrated => Question::Calibrated(Calibrated {
-                counting: self.counting,
                 method: self.method(|draft| draft.known),
             }),
             Model::Affine => Question::Affine(self.method(|draft| draft.known.into_parts())),

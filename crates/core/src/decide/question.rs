@@ -64,12 +64,10 @@ pub struct ProjectiveBodies {
 }
 
 /// A question in the calibrated model.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Calibrated {
     /// Over what it is decided.
     pub method: Method<Known>,
-    /// Whether to look for proofs by counting.
-    pub counting: bool,
 }
 
 /// What is known of calibrated cameras beside the pairs.
@@ -158,12 +156,12 @@ impl Question {
         }
     }
 
-    /// Whether proofs by counting are looked for.
+    /// Whether proofs by counting are looked for: always where they are the only ones (in the linear models,
+    /// where the bounds meet, there are no error bounds).
     pub(super) fn counting(&self) -> bool {
         match self {
             Self::Projective(asked) => asked.counting,
-            Self::Calibrated(asked) => asked.counting,
-            Self::Affine(_) => true,
+            Self::Calibrated(_) | Self::Affine(_) => true,
         }
     }
 }
@@ -212,15 +210,6 @@ impl Calibrated {
         Self {
             method: Method::Bodies(known),
             ..Self::default()
-        }
-    }
-}
-
-impl Default for Calibrated {
-    fn default() -> Self {
-        Self {
-            method: Method::default(),
-            counting: true,
         }
     }
 }

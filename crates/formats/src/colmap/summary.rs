@@ -161,7 +161,7 @@ impl Tables {
 ///
 /// # Errors
 /// Those of SQLite.
-fn guesses(
+pub(super) fn guesses(
     connection: &Connection,
     nodes: &HashMap<i64, u32>,
     paired: &BTreeSet<u32>,

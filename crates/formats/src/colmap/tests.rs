@@ -1,5 +1,5 @@
 use super::pairs::of_cameras;
-use super::summary::{bins, guessed};
+use super::summary::{bins, guesses};
 use crate::{
     Format, Matching, NamedGraph, OtherPair, ReadError, ReadOptions, open_database, read_graphs,
 };
@@ -184,17 +184,18 @@ fn focal_lengths_of_few_images_that_are_guesses_are_said() {
             let image = "insert into images (name, camera_id) values ('x', ?)";
             connection.execute(image, [camera]).unwrap();
         }
-        guessed(&connection).unwrap()
+        let nodes = (1..=cameras.len() as i64).zip(0..).collect();
+        let paired = (0..cameras.len() as u32).collect();
+        guesses(&connection, &nodes, &paired).unwrap()
     };
-    let note = said(0, 0, &[1, 1, 2, 3]).unwrap();
-    assert!(note.starts_with("3 images have cameras"), "{note}");
-    let note = said(1, 0, &[1, 1, 1, 2, 3]).unwrap();
-    assert!(note.starts_with("1 image has a camera"), "{note}");
-    assert_eq!(said(2, 0, &[1, 1, 1, 3]), None);
-    assert_eq!(said(3, 1, &[1, 2, 3]), None);
+    assert_eq!(said(0, 0, &[1, 1, 2, 3]), [3, 0]);
+    assert_eq!(said(1, 0, &[1, 1, 1, 2, 3]), [1, 1]);
+    assert_eq!(said(2, 0, &[1, 1, 1, 3]), [0, 1]);
+    assert_eq!(said(3, 1, &[1, 2, 3]), [0, 0]);
     // Older databases may not have the column.
     let old = Connection::open_in_memory().unwrap();
     old.execute_batch("create table images (image_id integer, name text)")
         .unwrap();
-    assert_eq!(guessed(&old).unwrap(), None);
+    let found = guesses(&old, &[(1, 0)].into(), &[0].into()).unwrap();
+    assert_eq!(found, [0, 0]);
 }

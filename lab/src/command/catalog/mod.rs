@@ -18,8 +18,8 @@ use viewcert_lab_catalog::shard_files::{CANDIDATES, MOST_CANDIDATES};
 use viewcert_lab_catalog::work::Listener;
 use viewcert_lab_catalog::{Files, Recheck, Sample, Settings, Shard, Source, Work, merged};
 use viewcert_report::{counted, table};
-use viewcert_session::Session;
 use viewcert_session::exit::{BAD_INPUT, GOOD, NOT};
+use viewcert_session::{Session, complain};
 
 /// Options of the catalog.
 #[derive(Args)]
@@ -257,7 +257,7 @@ fn of_size(
         },
         malformed: &mut |error| {
             found.bad_lines += 1;
-            Ok(writeln!(std::io::stderr(), "viewcert-lab: {error:#}")?)
+            Ok(complain("viewcert-lab", format_args!("{error:#}"))?)
         },
         note: &mut note,
         progress: session.progress("candidates", own),
