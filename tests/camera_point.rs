@@ -15,7 +15,8 @@ type Observations = Vec<(u32, u32)>;
 
 fn list(observations: &[(u32, u32)]) -> String {
     let line = |(camera, point): &(u32, u32)| format!("{camera} {point}\n");
-    observations.iter().map(line).collect()
+    let lines: String = observations.iter().map(line).collect();
+    format!("# viewcert pairs\n{lines}")
 }
 
 /// The line of `--json`, and the certificate, which the checker has accepted.
