@@ -50,6 +50,8 @@ fn given(text: &str) -> String {
 fn decided(pairs: &str, known: &str, more: &[&str]) -> Run {
     let file = File::new("known.txt", &given(known));
     let own = ["-", "--model", "calibrated", "--given", file.text()];
+    // Small graphs look like tables, and this comment says that they are none.
+    let pairs = format!("# viewcert pairs\n{pairs}");
     verify_with(pairs.as_bytes(), &[&own[..], more].concat())
 }
 
@@ -195,7 +197,7 @@ fn wrong_vectors_are_named() {
 fn certificates_bind_the_vectors() {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
-    write("pairs.txt", "0 2\n1 3\n");
+    write("pairs.txt", "# viewcert pairs\n0 2\n1 3\n");
     write("equal.txt", &given("0 1 2 0 0\n2 3 2 0 0\n"));
     write("metres.txt", &given("3 2 -0.002 0 0\n1 0 -2e-3 0 0\n"));
     write("longer.txt", &given("0 1 2 0 0\n2 3 3 0 0\n"));
