@@ -396,7 +396,7 @@ fn two_matrices(folder: &Path) -> String {
 fn the_variable_and_the_format_can_be_said() {
     let folder = tempfile::tempdir().unwrap();
     let two = two_matrices(folder.path());
-    for command in ["audit", "compare", "conditions"] {
+    for command in ["audit", "models", "overview", "label"] {
         // Which of the two is meant has to be said.
         let run = verify(&[command, &two]);
         assert_eq!(run.code, 2, "{}", run.out);

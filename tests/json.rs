@@ -12,7 +12,7 @@ const SQUARE: &[u8] = b"0 1\n1 2\n2 3\n0 3\n";
 
 #[test]
 fn of_graphs() {
-    let commands: [(&str, &str, &[&str], &[&str]); 6] = [
+    let commands: [(&str, &str, &[&str], &[&str]); 4] = [
         (
             "report",
             "",
@@ -27,18 +27,6 @@ fn of_graphs() {
         ),
         ("models", "models", &[], &["program", "graph", "models"]),
         ("label", "label", &[], &["program", "graph", "label"]),
-        (
-            "comparison",
-            "compare",
-            &[],
-            &["program", "graph", "agree", "formulations"],
-        ),
-        (
-            "conditions",
-            "conditions",
-            &[],
-            &["program", "graph", "result"],
-        ),
     ];
     for (definition, command, more, required) in commands {
         for graph in GRAPHS {
@@ -52,14 +40,6 @@ fn of_graphs() {
                 assert_eq!(line["graph"]["sha256"].as_str().map(str::len), Some(64));
             }
         }
-    }
-    for options in [
-        &["--rational"][..],
-        &["--model", "affine"],
-        &["--limit", "1"],
-    ] {
-        let words = [&["compare", "--json", "-"], options].concat();
-        keeps_to("comparison", &verify_with(SQUARE, &words), &["notes"]);
     }
 }
 

@@ -319,7 +319,7 @@ fn each_connected_part_of_three_images_becomes_a_global_model() {
     assert_eq!((code, global_sizes(&line)), (1, vec![6, 5, 3]));
     assert_eq!(sizes(&line), [6, 5, 3]);
     let words = words(&["overview", &path]);
-    let said = "global 3 models of 6 + 5 + 3 images, one for each connected part, all determined (COLMAP 4.2)";
+    let said = "global 3 models of 6 + 5 + 3 images, one for each connected part, all determined if every pair is right (COLMAP 4.2)";
     assert!(words.contains(said), "{words}");
 }
 

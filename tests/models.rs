@@ -6,9 +6,11 @@ use std::path::Path;
 use viewcert::graph::{Adjacency, Graph, biconnected_components};
 use viewcert_formats::{ReadOptions, read_graphs};
 
+/// The first line says that these are pairs, however few or bipartite they are.
 fn edge_list(pairs: impl IntoIterator<Item = (u32, u32)>) -> String {
     let line = |(i, j)| format!("{i} {j}\n");
-    pairs.into_iter().map(line).collect()
+    let head = "# viewcert pairs\n".to_owned();
+    std::iter::once(head).chain(pairs.into_iter().map(line)).collect()
 }
 
 fn complete(nodes: u32) -> impl Iterator<Item = (u32, u32)> {
@@ -42,7 +44,7 @@ fn affine(pairs: &str) -> (i32, String, [u64; 3]) {
 fn affine_answers_by_hand() {
     let solvable = |code, verdict: &str| (code, verdict) == (0, "solvable");
     for (pairs, nodes) in [
-        ("0 1\n".to_owned(), 2),
+        (edge_list([(0, 1)]), 2),
         (cycle(3), 3),
         (edge_list(complete(5)), 5),
         (edge_list(bipartite(3, 3)), 6),
@@ -174,7 +176,10 @@ fn centres_in_a_plane() {
         assert_eq!(run.json()[0]["planar"]["verdict"], verdict);
     }
     // Two parts are not joined by a plane either: 4 * 2 + 3 * 2 = 14 of 29.
-    let run = verify_with(b"0 1\n2 3\n", &["-", "--json", "--planar"]);
+    let run = verify_with(
+        edge_list([(0, 1), (2, 3)]).as_bytes(),
+        &["-", "--json", "--planar"],
+    );
     assert_eq!(
         (run.code, &run.json()[0]["planar"]["rank"]),
         (1, &14.into())

@@ -151,7 +151,7 @@ fn three_graphs_refuted_by_parts_that_overlap() {
     ];
     let rank = |pairs: &[&str]| {
         let list = pairs.join("\n").replace('-', " ");
-        let run = verify_with(list.as_bytes(), &["-", "--json"]);
+        let run = verify_with(list.as_bytes(), &["-", "--json", "--format", "edges"]);
         let line = run.json().remove(0);
         let strength = line["rank_strength"].as_str().unwrap().to_owned();
         (line["rank"].as_i64().unwrap(), strength)
@@ -476,7 +476,17 @@ fn one_bad_file_does_not_stop_the_others() {
     let (good, bad) = (good.to_str().unwrap(), bad.to_str().unwrap());
     let run = verify(&[bad, good, "no such file", "--json"]);
     assert_eq!(run.code, 2);
-    assert_eq!(run.json().len(), 1);
+    let lines = run.json();
+    assert_eq!(lines.len(), 3);
+    assert!(lines[0].get("verdict").is_none() && lines[2].get("verdict").is_none());
+    assert_eq!(lines[1]["verdict"], "solvable");
+    for (line, name, error) in [
+        (&lines[0], bad, &*format!("{bad}:2:")),
+        (&lines[2], "no such file", "No such file"),
+    ] {
+        assert_eq!(line["graph"]["name"], name);
+        assert!(line["error"].as_str().unwrap().contains(error), "{line}");
+    }
     assert!(run.err.contains(&format!("{bad}:2:")), "{}", run.err);
     assert!(run.err.contains("no such file"), "{}", run.err);
     assert_eq!(run.err.lines().count(), 2);
