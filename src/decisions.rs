@@ -9,7 +9,7 @@ use super::{here, input, intrinsics};
 use anyhow::{Context, Error, Result, ensure};
 use std::borrow::Cow;
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use viewcert::Known;
 use viewcert::decide as verdict;
@@ -275,7 +275,7 @@ impl Work<'_> {
         match (&mut self.table, &self.plan.form) {
             (Some(table), _) => table.failed(out, name, why),
             (None, Form::Json) => json::write_failed(out, name, why),
-            (None, _) if self.plan.graphs == [Path::new(name)] => return Ok(()),
+            (None, _) if is_only(&self.plan.graphs, name) => return Ok(()),
             (None, _) => writeln!(out, "{name}\n  error       {why}"),
         }
         .context("standard output")
@@ -367,6 +367,11 @@ impl Written {
 /// A path for people.
 fn shown(path: &Path) -> String {
     printable(&path.display().to_string())
+}
+
+/// Whether a name is that of the only file. Names of graphs are text, whatever the path is.
+fn is_only(graphs: &[PathBuf], name: &str) -> bool {
+    matches!(graphs, [only] if only.to_string_lossy() == name)
 }
 
 /// Writes the explicit proof, and returns what it shows.

@@ -283,7 +283,7 @@ fn what_is_wrong_is_said() {
         run.err
     );
     // Other commands do not know the option.
-    for command in ["overview", "compare", "audit", "conditions", "advise"] {
+    for command in ["overview", "audit", "advise", "split", "merge", "lists", "witness", "label"] {
         let run = verify(&[command, &one, "--given", &own]);
         assert_eq!(run.code, 2, "{command}");
         assert!(run.err.contains("'--given'"), "{}", run.err);
@@ -490,6 +490,8 @@ fn large_parts_stay_small() {
             &files.name("graph.txt"),
             "--given",
             &files.name("parts.txt"),
+            "--model",
+            model,
         ];
         assert_eq!(first(&arguments), Some(0));
     }
