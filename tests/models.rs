@@ -10,7 +10,9 @@ use viewcert_formats::{ReadOptions, read_graphs};
 fn edge_list(pairs: impl IntoIterator<Item = (u32, u32)>) -> String {
     let line = |(i, j)| format!("{i} {j}\n");
     let head = "# viewcert pairs\n".to_owned();
-    std::iter::once(head).chain(pairs.into_iter().map(line)).collect()
+    std::iter::once(head)
+        .chain(pairs.into_iter().map(line))
+        .collect()
 }
 
 fn complete(nodes: u32) -> impl Iterator<Item = (u32, u32)> {

@@ -48,7 +48,7 @@ impl Search<'_> {
             if let Some(single) = single(*components) {
                 pool.retain(|&pair| costs.candidate(pair).trust() < single);
             }
-            self.enough(&nodes, how, &pool, options)
+            self.enough(&nodes, how, &pool, costs, options)
         });
         let sets: Result<Vec<Option<Vec<Pair>>>, VerdictError> = sets.collect();
         Ok(sets?.into_iter().flatten().collect())
@@ -74,13 +74,14 @@ impl Search<'_> {
     }
 
     /// Pairs that make one of two parts: of the pool, the most promising first, as few as are enough; of these
-    /// those are left out that the others make superfluous, the least promising first, but never the most
-    /// promising one. `None` if the pool is not enough, or one pair is.
+    /// those are left out that the others make superfluous, the least promising first, but never one that is
+    /// more promising than all others. `None` if the pool is not enough, or one pair is.
     fn enough(
         &self,
         nodes: &[Vec<u32>; 2],
         how: &How,
         pool: &[Pair],
+        costs: &Costs,
         options: &Options,
     ) -> Result<Option<Vec<Pair>>, VerdictError> {
         let by = how.through.iter().flat_map(|&[a, x, b]| [(a, x), (x, b)]);
@@ -106,7 +107,10 @@ impl Search<'_> {
             }
         }
         let mut chosen = pool[..enough].to_vec();
-        for k in (1..enough.saturating_sub(1)).rev() {
+        // The first stays if it is more promising than the second.
+        let worth = |k: usize| pool.get(k).map(|&pair| costs.candidate(pair).rank());
+        let first = usize::from(worth(0) != worth(1));
+        for k in (first..enough.saturating_sub(1)).rev() {
             let mut fewer = chosen.clone();
             fewer.remove(k);
             if is_enough(&fewer)? {
