@@ -58,7 +58,7 @@ pub(super) fn given(head: &[u8]) -> Option<Problem> {
     (is_given(first) && rest.into_iter().all(is_given)).then_some(Problem::Foreign {
         what: "a file of what is given besides a graph",
         advice: "give it with the graph: verify GRAPH --given FILE; if its lines are pairs all the same, \
-                 say --format edges",
+                 write the line `source target` above them",
     })
 }
 
