@@ -300,6 +300,9 @@ impl Collector {
         let found = fields.len();
         let lone = self.layout.head == Head::Own || self.layout.width.is_none();
         if let ([only], true) = (fields, lone) {
+            if !only.quoted && self.has_comma(only.raw(line)) {
+                return Err(Refusal::blank(only.raw(line)).into());
+            }
             let [node, _] = self.nodes([&only.text(line); 2])?;
             self.singles.push(node);
             return Ok(());
@@ -355,7 +358,8 @@ impl Collector {
             }
             let blanks = label.contains([' ', '\t']) && !is_image(label);
             let commas = label.contains(',') && self.layout.separator != Separator::Byte(b';');
-            if (blanks || commas) && matches!(self.layout.head, Head::None | Head::Comment) {
+            let bare = matches!(self.layout.head, Head::None | Head::Comment);
+            if (blanks || commas) && bare || self.has_comma(label) {
                 return Err(Refusal::blank(label).into());
             }
         }
@@ -383,6 +387,11 @@ impl Collector {
             true => Err(Refusal::no_pose(fields.len()).into()),
             false => Ok(()),
         }
+    }
+
+    /// Whether a label has a comma where blanks separate: `0, 1` and `0,1` below `source target`.
+    fn has_comma(&self, label: &str) -> bool {
+        self.layout.separator == Separator::Blank && label.contains(',')
     }
 
     /// Whether a label has been met.
@@ -526,15 +535,18 @@ impl Collector {
         let is_label = labels.iter().any(|label| self.is_known(label));
         if is_label && !asked {
             // Names that are labels below are those of a pair.
-            if self.layout.ends != [0, 1] || self.layout.width != Some(2) {
+            let names = self.labels().unwrap_or_default();
+            // Below a head names have blanks without quotes.
+            let free = |name: &&str| name.contains([' ', '\t', ',']) && !is_image(name);
+            let is_table = self.layout.ends != [0, 1] || self.layout.width != Some(2);
+            if is_table || names.iter().any(free) {
                 return fault(Refusal::head_or_pair(&shown));
             }
-            self.layout.head = Head::None;
-            self.layout.names = None;
-            let names = self.labels().unwrap_or_default();
             if let Some(number) = names.iter().find(|name| is_number(name.as_bytes())) {
                 return fault(Refusal::mixed(number, false));
             }
+            self.layout.head = Head::None;
+            self.layout.names = None;
             let taken = self.nodes([&labels[0], &labels[1]]);
             let [a, b] = taken.map_err(|problem| Place::Line(line).fault(problem))?;
             self.pairs.insert(0, (a, b));
