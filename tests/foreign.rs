@@ -127,7 +127,12 @@ fn nothing_is_misread() {
         holds(row, "as a file", name, &verify(&file));
         let input = [&arguments[..], &["-"]].concat();
         let bytes = std::fs::read(&path).unwrap();
-        holds(row, "through standard input", "-", &verify_with(&bytes, &input));
+        holds(
+            row,
+            "through standard input",
+            "-",
+            &verify_with(&bytes, &input),
+        );
     }
 }
 

@@ -283,7 +283,9 @@ fn what_is_wrong_is_said() {
         run.err
     );
     // Other commands do not know the option.
-    for command in ["overview", "audit", "advise", "split", "merge", "lists", "witness", "label"] {
+    for command in [
+        "overview", "audit", "advise", "split", "merge", "lists", "witness", "label",
+    ] {
         let run = verify(&[command, &one, "--given", &own]);
         assert_eq!(run.code, 2, "{command}");
         assert!(run.err.contains("'--given'"), "{}", run.err);

@@ -338,13 +338,7 @@ mod edge_lists {
                     if head && (expected.is_none() || found.0.iter().any(holds)) {
                         continue;
                     }
-                    prop_assert_eq!(
-                        Some(found),
-                        expected,
-                        "{:?} {:?}",
-                        format,
-                        &named.read
-                    );
+                    prop_assert_eq!(Some(found), expected, "{:?} {:?}", format, &named.read);
                     count.set(count.get() + 1);
                     heads.set(heads.get() + usize::from(head));
                 }
@@ -427,12 +421,7 @@ fn own_files_are_named() {
             "give the graph that it is about",
         ),
     ];
-    for command in [
-        &[][..],
-        &["audit"],
-        &["models"],
-        &["overview"],
-    ] {
+    for command in [&[][..], &["audit"], &["models"], &["overview"]] {
         let run = verify(&[command, &[&*graph, "--json"]].concat());
         let name = format!("report-{}.json", command.first().unwrap_or(&"verify"));
         own.push((

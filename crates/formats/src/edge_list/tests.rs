@@ -93,6 +93,13 @@ fn what_is_no_bare_list_is_refused() {
         ),
         ("a b 1 0 0 0 1 0 0 0 -1 7 8 9\n", "there is no rotation"),
         ("a b c,d\n", "`a b c` has blanks or commas"),
+        ("source target\n0, 1\n", "`0,` has blanks or commas"),
+        ("# viewcert pairs\n0, 1\n", "`0,` has blanks or commas"),
+        ("# viewcert pairs\n0,1\n", "`0,1` has blanks or commas"),
+        (
+            "source,target\nfrom,source\nfrom,to x\n",
+            "may be a head, and it looks like the labels",
+        ),
         ("a,b\nb,\n", "field 2, where the name of a camera belongs"),
         ("a -> b\n", "`->` is neither"),
         ("-> b\n", "`->` is neither"),
