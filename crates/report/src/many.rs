@@ -170,9 +170,9 @@ impl Table {
     /// # Errors
     /// Those of the writer.
     pub fn failed(&mut self, out: &mut impl Write, name: &str, why: &str) -> io::Result<()> {
-        let (name, why) = (&*printable(name), &*printable(why));
         self.failed += 1;
         let width = self.width;
+        let (name, why) = (&*printable(name), &*printable(why));
         match self.format {
             Format::Text => writeln!(out, "{name:width$}  error: {why}"),
             Format::Csv => {
