@@ -108,7 +108,6 @@ fn parts_against_cliques() {
                 }),
                 Model::Calibrated => Question::Calibrated(Calibrated {
                     method: Method::WholeGraph,
-                    ..Calibrated::default()
                 }),
                 Model::Affine => model.into(),
             };

@@ -91,7 +91,7 @@ impl Made {
         ] {
             let values = params![2_147_483_647 * a + b, count, list, config];
             let few = if insert.contains("?4") {
-                &values[..]
+                values
             } else {
                 &values[..3]
             };
@@ -314,7 +314,8 @@ fn focal_lengths_that_are_guesses() {
     let guess = |id| (id, SIMPLE_RADIAL, false);
     let prior = (9, SIMPLE_RADIAL, true);
     let spherical = (8, EQUIRECTANGULAR, false);
-    let cases: [(&[_], [i64; 6], i32, &str, [u64; 2]); 6] = [
+    type Case<'a> = (&'a [(i64, i64, bool)], [i64; 6], i32, &'a str, [u64; 2]);
+    let cases: [Case; 6] = [
         (&[prior], [9; 6], 0, "", [0, 0]),
         (
             &[guess(1)],

@@ -25,6 +25,9 @@ use viewcert_report::intrinsics::IntrinsicsLine;
 use viewcert_report::priors::PriorsLine;
 use viewcert_session::Outputs;
 
+/// Numbers as an array of NumPy.
+type Numbers<'py, T> = Bound<'py, PyArray1<T>>;
+
 /// A graph and what was decided about it.
 #[pyclass(frozen, module = "viewcert._native")]
 pub(crate) struct Decided {
@@ -351,10 +354,7 @@ impl Decided {
     }
 
     /// The nodes of all components, one after another, and where each component ends.
-    fn components<'py>(
-        &self,
-        py: Python<'py>,
-    ) -> PyResult<(Bound<'py, PyArray1<u32>>, Bound<'py, PyArray1<u64>>)> {
+    fn components<'py>(&self, py: Python<'py>) -> PyResult<(Numbers<'py, u32>, Numbers<'py, u64>)> {
         let (nodes, ends) = work::briefly(py, || {
             let (mut nodes, mut ends) = (Vec::new(), Vec::new());
             for component in &self.verdict.components {

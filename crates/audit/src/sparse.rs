@@ -93,7 +93,9 @@ fn root(block: &GramBlock) -> Option<GramBlock> {
 
 /// A factor L of a symmetric matrix, block by block, in the order of elimination: the node, its block on the diagonal,
 /// and those below with their nodes.
-struct Factor(Vec<(usize, GramBlock, Vec<(usize, GramBlock)>)>);
+struct Factor(Vec<Eliminated>);
+
+type Eliminated = (usize, GramBlock, Vec<(usize, GramBlock)>);
 
 impl Factor {
     /// Of J^T J + shift; nothing if rounding leaves it not positive definite.

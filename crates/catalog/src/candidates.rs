@@ -77,7 +77,7 @@ pub fn candidates(nodes: usize, edges: usize, watch: &Watch) -> Result<Vec<Graph
         let mut all: Vec<Vec<Graph>> = Vec::with_capacity(fewer.len());
         for n in 3..=nodes {
             let smaller = n.checked_sub(4);
-            let by_pair = fewer[n - 3].iter().map(|graph| with_pair(graph));
+            let by_pair = fewer[n - 3].iter().map(with_pair);
             let by_node = smaller.map_or(&[][..], |k| &fewer[k]).iter().map(with_node);
             let by_path = smaller.map_or(&[][..], |k| &all[k]).iter().map(with_path);
             let grown: Vec<Vec<Graph>> = by_pair.chain(by_node).chain(by_path).collect();

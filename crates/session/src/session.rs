@@ -192,7 +192,7 @@ impl Session {
     pub fn say_end(&self, error: &Error) {
         if !is_broken_pipe(error) && self.0.first_to_say() {
             // Nothing is left to tell if standard error is gone as well.
-            let _ = complain(&self.0.program, format_args!("{error:#}"));
+            let _ = complain(self.0.program, format_args!("{error:#}"));
         }
     }
 }
@@ -260,7 +260,7 @@ impl Run {
             }
             let during = if doing.is_empty() { "" } else { " while " };
             // Nothing is left to tell if standard error is gone.
-            let _ = complain(&self.program, format_args!("{limit}{during}{doing}"));
+            let _ = complain(self.program, format_args!("{limit}{during}{doing}"));
         }
         std::process::exit(i32::from(self.exit_code(reason)));
     }

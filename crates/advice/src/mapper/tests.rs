@@ -32,7 +32,7 @@ impl Sample {
     }
 
     fn simulated(&self, geometry: &mut dyn Geometry) -> Incremental {
-        let mut matches: BTreeMap<(u32, u32), Vec<[(u32, u32); 2]>> = BTreeMap::new();
+        let mut matches = BTreeMap::<(u32, u32), Vec<_>>::new();
         for (point, seen) in (0..).zip(&self.tracks) {
             for (k, &a) in seen.iter().enumerate() {
                 for &b in &seen[k + 1..] {

@@ -209,7 +209,6 @@ impl Calibrated {
     pub fn with(known: Known) -> Self {
         Self {
             method: Method::Bodies(known),
-            ..Self::default()
         }
     }
 }

@@ -98,6 +98,7 @@ pub(crate) enum Focal {
     /// It is known beforehand (`prior_focal_length`).
     Prior,
     /// It is a guess.
+    #[cfg(feature = "databases")]
     Guess,
     /// There is none: the camera sees the whole sphere, and each pixel has a known direction.
     Spherical,

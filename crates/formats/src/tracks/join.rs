@@ -111,6 +111,7 @@ impl Joined {
     }
 
     /// Of every image and feature the track that it is in.
+    #[cfg(feature = "databases")]
     pub(crate) fn of_features(self) -> Vec<Vec<Option<u32>>> {
         let Self { features, mut sets } = self;
         let mut track = |element: u32| Some(sets.find(element.checked_sub(1)? as usize) as u32);
