@@ -70,7 +70,7 @@ def calibrated(edges, cameras):
 def main(pairs, given, model):
     names, edges, matrices = {}, [], {}
     with open(pairs, encoding="utf-8") as file:
-        for line in file:
+        for line in (line for line in file if not line.startswith("#")):
             edges.append(tuple(names.setdefault(name, len(names)) for name in line.split()))
     with open(given, encoding="utf-8") as file:
         for line in file:

@@ -57,5 +57,5 @@ fn what_others_write_is_read_as_they_mean_it() {
             files += 1;
         }
     }
-    assert_eq!(files, 3 * 12 * 12);
+    assert_eq!(files, 3 * 6 * 12);
 }

@@ -198,10 +198,8 @@ fn a_hostile_name_does_not_run() {
         "<!--{{script}}",
         "&lt;b&gt;",
     ];
-    let pairs: String = names
-        .iter()
-        .map(|name| format!("\"{name}\" plain\n"))
-        .collect();
+    let lines = names.map(|name| format!("\"{name}\" plain\n")).concat();
+    let pairs = format!("# viewcert pairs\n{lines}");
     let page = Page::of(pairs.as_bytes(), &["-"]);
     let labels = page.report()["components"].to_string();
     assert!(labels.contains("</title></svg><svg onload"), "{labels}");

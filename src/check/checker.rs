@@ -72,6 +72,8 @@ impl Named<'_> {
         if self.given.is_none() && !is_generic {
             return Ok(graph);
         }
+        // The check compares what the graph comes with, rigs included, with what the certificate supposes.
+        expected.given |= self.graph.is_some() && is_generic;
         if let Some(hash) = input.frames.as_ref().and_then(|frames| frames.sha256()) {
             graph = graph.with_frames(hex(&hash));
         }
