@@ -66,8 +66,8 @@ def test_an_overview_shows_itself(database: pathlib.Path) -> None:
     page = html.unescape(notebook.split('"')[1])
     assert timeless(page) == timeless(found.page()) and "<svg" in page
     assert found.determined is True
-    # No camera of the synthetic rig has a prior focal length.
-    assert found.condition == "if every pair is right and the mapper finds 2 focal lengths"
+    # The one camera has no prior focal length.
+    assert found.condition == "if every pair is right and the mapper finds the focal length"
     verdict = viewcert.verify(viewcert.tracks_from_database(database))
     assert verdict.value == "solvable"
     assert verdict.conditions[0] == found.condition
