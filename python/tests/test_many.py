@@ -141,8 +141,7 @@ def test_edges_with_attributes() -> None:
     with pytest.warns(viewcert.NoteWarning, match="1 of 3 pairs have fewer than 10 inliers"):
         fewer = viewcert.Graph(graph.edges(data=True), inliers="matches", min_inliers=10)
     assert fewer.pairs == [("a", "b"), ("b", "c")]
-    [suggested] = viewcert.suggest(fewer)
-    assert suggested.pairs == (("a", "c"),) and suggested.inliers == (7,)
+    assert not list(viewcert.suggest(fewer)), "what failed is not suggested"
     graph.add_edge("c", "d")
     with pytest.raises(viewcert.InputError, match="pair \\('c', 'd'\\) has no attribute 'matches'"):
         viewcert.Graph(graph, inliers="matches")
