@@ -93,11 +93,11 @@ fn finishes(out: &Path, whole: &Path) {
     let first = out.join("shard-1-of-1/part-000000.tsv");
     let written = || fs::metadata(&first).unwrap().modified().unwrap();
     let before = written();
-    good(&verify(&run(out)).output().unwrap());
+    good(&workshop(&run(out)).output().unwrap());
     assert_eq!(written(), before, "a complete part is kept");
     let shard = |folder: &Path| files(&folder.join("shard-1-of-1"));
     assert!(shard(out) == shard(whole));
-    let table = good(&verify(&["catalog", "merge", path(out)]).output().unwrap());
+    let table = good(&workshop(&["catalog", "merge", path(out)]).output().unwrap());
     let row: Vec<&str> = table.lines().nth(1).unwrap().split_whitespace().collect();
     // "9 nodes, 12 edges, biconnected", then candidates and finite-solvable ones.
     assert_eq!(row[5..7], ["433", "27"], "{table}");
@@ -143,14 +143,16 @@ impl Drop for Small {
 fn a_full_file_system_keeps_complete_parts() {
     let disk = Small::new(24);
     let whole = tempfile::tempdir().unwrap();
-    good(&verify(&run(whole.path())).output().unwrap());
+    good(&workshop(&run(whole.path())).output().unwrap());
     let out = disk.0.path().join("out");
-    let stopped = verify(&run(&out)).output().unwrap();
+    let stopped = workshop(&run(&out)).output().unwrap();
     let parts = intact(&out, whole.path());
     assert!(parts > 0);
     let next = format!("part-{parts:06}.tsv");
     refused(&stopped, &next, "No space left on device");
-    let merge = verify(&["catalog", "merge", path(&out)]).output().unwrap();
+    let merge = workshop(&["catalog", "merge", path(&out)])
+        .output()
+        .unwrap();
     assert_eq!(merge.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&merge.stderr).contains("not finished"));
 
@@ -178,7 +180,7 @@ fn a_full_file_system_keeps_complete_parts() {
 #[test]
 fn a_partial_write_leaves_no_part() {
     let whole = tempfile::tempdir().unwrap();
-    good(&verify(&run(whole.path())).output().unwrap());
+    good(&workshop(&run(whole.path())).output().unwrap());
     let lengths: Vec<u64> = files(&whole.path().join("shard-1-of-1"))
         .iter()
         .filter(|(name, _)| name.starts_with("part-"))
@@ -192,7 +194,11 @@ fn a_partial_write_leaves_no_part() {
     assert!(complete < lengths.len(), "no part is too long: {lengths:?}");
 
     let folder = tempfile::tempdir().unwrap();
-    let stopped = limited(blocks, &program("verify"), &run(folder.path()));
+    let stopped = limited(
+        blocks,
+        Path::new(env!("CARGO_BIN_EXE_viewcert-lab")),
+        &run(folder.path()),
+    );
     assert_eq!(intact(folder.path(), whole.path()), complete);
     let next = format!("part-{complete:06}.tsv");
     refused(&stopped, &next, "File too large");

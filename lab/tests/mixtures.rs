@@ -32,7 +32,7 @@ fn graphs(most: u8) -> String {
 
 /// What the script beside this file prints.
 fn script(arguments: &[&str]) -> String {
-    let script = root().join("paper/tests/mixtures.py");
+    let script = root().join("lab/tests/mixtures.py");
     let made = python().arg(script).args(arguments).output().unwrap();
     assert!(made.status.success());
     String::from_utf8(made.stdout).unwrap()
