@@ -50,14 +50,8 @@ fn cameras(graph: &Graph, seed: u64, draw: u64) -> Vec<AffineCamera<f64>> {
     entries.chunks_exact(8).map(camera).collect()
 }
 
-/// The test at one draw of cameras. Takes time in the cube of the number of nodes.
-///
-/// # Errors
-/// No convergence.
-///
-/// # Panics
-/// If the graph has fewer than two nodes.
-pub fn decide(graph: &Graph, seed: u64, draw: u64) -> Result<Outcome, AuditError> {
+/// The singular values at one draw of cameras, falling, as many as columns.
+fn singular_values(graph: &Graph, seed: u64, draw: u64) -> Result<Vec<f64>, AuditError> {
     let (rows, columns) = size(graph);
     let mut dense = vec![vec![0.0; rows]; columns];
     let sparse = matrix(&Doubles, graph, &cameras(graph, seed, draw));
@@ -66,8 +60,20 @@ pub fn decide(graph: &Graph, seed: u64, draw: u64) -> Result<Outcome, AuditError
             .iter()
             .for_each(|&(column, x)| dense[column][row] = x);
     }
-    let (values, _) = singular(dense, false)?;
+    Ok(singular(dense, false)?.0)
+}
+
+/// The test at one draw of cameras. Takes time in the cube of the number of nodes.
+///
+/// # Errors
+/// No convergence.
+///
+/// # Panics
+/// If the graph has fewer than two nodes.
+pub fn decide(graph: &Graph, seed: u64, draw: u64) -> Result<Outcome, AuditError> {
+    let values = singular_values(graph, seed, draw)?;
     let smallest = values.last().copied();
+    let (rows, columns) = size(graph);
     Ok(Outcome {
         smallest: smallest.unwrap_or(0.0),
         rank: matlab_rank(&values, (rows, columns)),
@@ -198,8 +204,17 @@ mod tests {
         assert!(outcome.is_above(TOLERANCE) && outcome.is_full());
         assert_eq!(outcome, decide(&triangle, 1, 0).unwrap());
         assert_ne!(outcome, decide(&triangle, 1, 1).unwrap());
-        let path = decide(&without_an_edge(&triangle), 1, 0).unwrap();
-        assert_eq!((path.rank, path.smallest), (20, 0.0));
+        // 20 rows and 24 columns: the last four values are zero but for rounding, which leaves a small
+        // multiple of the unit roundoff (1.1e-16) times the largest one, for matrices so small below 1e-12.
+        let path = without_an_edge(&triangle);
+        let values = singular_values(&path, 1, 0).unwrap();
+        assert_eq!((size(&path), values.len()), ((20, 24), 24));
+        let zero = 1e-12 * values[0];
+        assert!(values[20..].iter().all(|&x| x <= zero), "{values:?}");
+        assert!(values[19] > zero, "{values:?}");
+        let path = decide(&path, 1, 0).unwrap();
+        assert_eq!((path.rank, path.smallest), (20, values[23]));
+        assert!(!path.is_above(TOLERANCE) && !path.is_full());
         let expected = Misjudged {
             draws: 20,
             ..Misjudged::default()
