@@ -122,6 +122,13 @@ def _reconstruction() -> int:
     return len(viewcert.tracks_from_reconstruction(pycolmap.synthesize_dataset(options)))
 
 
+def _merge() -> str:
+    pycolmap = pytest.importorskip("pycolmap")
+    options = pycolmap.SyntheticDatasetOptions(num_rigs=1, num_cameras_per_rig=1, num_frames_per_rig=5, num_points3D=60)
+    model = pycolmap.synthesize_dataset(options)
+    return type(viewcert.merge(model, model)).__name__
+
+
 def _intrinsics(graph: Any) -> viewcert.Intrinsics:
     return viewcert.intrinsics(graph, {}, default="focal")
 
@@ -148,6 +155,7 @@ CASES: dict[str, Callable[[], Any]] = {
     "intrinsics": lambda: _intrinsics(SMALL).rank,
     "label": lambda: viewcert.label(SMALL),
     "lists": lambda: viewcert.lists(_database(), _lists()).determined,
+    "merge": _merge,
     "models": lambda: viewcert.models(STRIP).report(),
     "overview": lambda: viewcert.overview(_database()).found["pairs"],
     "read": lambda: viewcert.read(_file()).sha256,
@@ -197,12 +205,15 @@ def children(kind: str) -> Iterator[Any]:
     try:
         yield pool
     finally:
+        if kind != "executor":
+            # A child that is killed first may hold the lock for which terminate waits.
+            ending = threading.Thread(target=pool.terminate, daemon=True)
+            ending.start()
+            ending.join(10)
         for process in list(processes.values()):
             process.kill()
         if kind == "executor":
             pool.shutdown(wait=False, cancel_futures=True)
-        else:
-            pool.terminate()
 
 
 @pytest.fixture(scope="module")
