@@ -363,7 +363,11 @@ impl<'a> Reading<'a> {
         mut each: impl FnMut(&mut W, &Path, Result<(Input, T), ReadError>, Instant) -> Result<u8>,
     ) -> Result<u8> {
         let session = self.session;
-        let (mut code, mut bad) = (GOOD, BadLines::default());
+        let mut bad = BadLines {
+            program: session.program(),
+            ..BadLines::default()
+        };
+        let mut code = GOOD;
         // The first answers come at once.
         let mut size = 1;
         loop {
@@ -390,7 +394,7 @@ impl<'a> Reading<'a> {
                     Err(error) if ends_run(&error) => return Err(error),
                     Err(error) => {
                         if bad.of_path <= MOST_ERRORS {
-                            complain("verify", format_args!("{error:#}"))?;
+                            complain(session.program(), format_args!("{error:#}"))?;
                         }
                         session.exit_code(&error)
                     }
@@ -431,6 +435,7 @@ fn done_ahead<T: Send>(
 /// Counts the lines of a path that cannot be read, of which the first are printed.
 #[derive(Default)]
 struct BadLines<'a> {
+    program: &'static str,
     path: Option<&'a Path>,
     of_path: usize,
 }
@@ -440,10 +445,8 @@ impl<'a> BadLines<'a> {
     fn count(&mut self, path: &'a Path, is_bad: bool) -> Result<()> {
         if self.path != Some(path) {
             self.end()?;
-            *self = Self {
-                path: Some(path),
-                of_path: 0,
-            };
+            self.path = Some(path);
+            self.of_path = 0;
         }
         self.of_path += usize::from(is_bad);
         Ok(())
@@ -457,7 +460,7 @@ impl<'a> BadLines<'a> {
             let more = counted(self.of_path - MOST_ERRORS, "more line");
             let path = path.display();
             complain(
-                "verify",
+                self.program,
                 format_args!("{path}: {more} cannot be read either"),
             )?;
         }

@@ -188,6 +188,11 @@ impl Session {
         }
     }
 
+    /// The name of the program.
+    pub fn program(&self) -> &'static str {
+        self.0.program
+    }
+
     /// Says why the program ends, unless that has been said or nobody reads it.
     pub fn say_end(&self, error: &Error) {
         if !is_broken_pipe(error) && self.0.first_to_say() {
