@@ -1,5 +1,5 @@
 //! docs/formulas.md says what there is: its files and names exist, what it calls a test is one,
-//! and no numbered statement is left out. Links into docs/theory.md lead somewhere.
+//! and no numbered statement is left out. Links into the chapters of docs/theory lead somewhere.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -129,7 +129,7 @@ fn broken(page: &str, read: impl Fn(&str) -> Option<String>) -> Vec<String> {
     problems
 }
 
-/// The numbered statements of docs/theory.md, and its numbered equations.
+/// The numbered statements of the theory, and its numbered equations.
 fn statements(theory: &str) -> BTreeSet<String> {
     let kinds = [
         "Theorem",
@@ -191,6 +191,24 @@ fn page(name: &str) -> String {
     std::fs::read_to_string(root().join("docs").join(name)).unwrap()
 }
 
+/// The pages of a folder, by their names.
+fn pages(folder: &str) -> BTreeMap<String, String> {
+    let files = std::fs::read_dir(root().join(folder)).unwrap();
+    let names = files.map(|file| file.unwrap().file_name().into_string().unwrap());
+    let pages = names.filter(|name| name.ends_with(".md"));
+    pages
+        .map(|name| {
+            let text = std::fs::read_to_string(root().join(folder).join(&name)).unwrap();
+            (name, text)
+        })
+        .collect()
+}
+
+/// The chapters of the theory, by the names of their files.
+fn chapters() -> BTreeMap<String, String> {
+    pages("docs/theory")
+}
+
 #[test]
 fn every_name_exists() {
     let problems = broken(&page("formulas.md"), |path| {
@@ -206,41 +224,48 @@ fn every_statement_of_the_theory_is_listed_once() {
     let of_theory = rows.iter().filter(|row| row.section.starts_with("theory"));
     let mut listed: Vec<String> = of_theory.map(|row| row.cells[0].to_owned()).collect();
     listed.sort();
-    let stated = statements(&page("theory.md"));
-    assert!(stated.len() > 60, "theory.md states {}", stated.len());
+    let chapters = chapters().into_values().collect::<Vec<_>>();
+    let stated = statements(&chapters.concat());
+    assert!(stated.len() > 60, "the theory states {}", stated.len());
     assert_eq!(listed, stated.into_iter().collect::<Vec<_>>());
 }
 
-/// Statements of the sections that were rearranged have their number as anchor, and the headings
-/// that are gone are still anchors.
+/// The index of the theory names every chapter. Statements of sections 10 and 13 to 17 have their number as anchor.
 #[test]
 fn links_into_the_theory_lead_somewhere() {
-    let theory = page("theory.md");
-    let targets = targets(&theory);
-    let of_old_sections = statements(&theory).into_iter().filter_map(|statement| {
-        let number = statement.split_once(' ')?.1.to_owned();
-        ["10.", "13."]
-            .iter()
-            .any(|section| number.starts_with(section))
-            .then_some(number)
-    });
-    let gone = [
-        "13-affine-cameras-centres-in-a-plane-known-displacements",
-        "displacements-and-what-counting-rests-on",
-    ];
-    let gone = gone.map(str::to_owned);
-    let within = names(&theory, "").into_iter().map(str::to_owned);
-    let mut wanted: Vec<String> = of_old_sections.chain(gone).chain(within).collect();
-    for file in std::fs::read_dir(root().join("docs")).unwrap() {
-        let path = file.unwrap().path();
-        if path.extension().is_some_and(|end| end == "md") {
-            let text = std::fs::read_to_string(path).unwrap();
-            wanted.extend(names(&text, "theory.md").into_iter().map(str::to_owned));
+    let index = page("theory.md");
+    let texts = pages("docs").into_values().chain(chapters().into_values());
+    let texts: Vec<String> = texts.collect();
+    let mut problems = Vec::new();
+    let mut count = 0;
+    for (name, chapter) in chapters() {
+        if !index.contains(&format!("](theory/{name})")) {
+            problems.push(format!("the index has no {name}"));
         }
+        let targets = targets(&chapter);
+        let stated = statements(&chapter).into_iter().filter_map(|statement| {
+            let number = statement.split_once(' ')?.1.to_owned();
+            let sections = ["10.", "13.", "15.", "16.", "17."];
+            let has = |section: &&str| number.starts_with(*section);
+            sections.iter().any(has).then_some(number)
+        });
+        let mut wanted: Vec<String> = stated.collect();
+        wanted.extend(names(&chapter, "").into_iter().map(str::to_owned));
+        for text in &texts {
+            for path in [format!("theory/{name}"), name.clone()] {
+                wanted.extend(names(text, &path).into_iter().map(str::to_owned));
+            }
+        }
+        count += wanted.len();
+        wanted.retain(|target| !targets.contains(target));
+        problems.extend(
+            wanted
+                .iter()
+                .map(|target| format!("{name} has no #{target}")),
+        );
     }
-    assert!(wanted.len() > 50, "{} links", wanted.len());
-    wanted.retain(|name| !targets.contains(name));
-    assert!(wanted.is_empty(), "lead nowhere: {wanted:?}");
+    assert!(count > 50, "{count} links");
+    assert!(problems.is_empty(), "{}", problems.join("\n"));
 }
 
 #[test]

@@ -118,6 +118,7 @@ class Sources:
     def __init__(self, notebooks):
         self.notebooks = {ROOT / page: found for page, found in notebooks.items()}
         pages = {path: path.name for path in sorted((ROOT / "docs").glob("*.md"))}
+        pages.update({path: f"{statements.page(path)}.md" for path in statements.CHAPTERS})
         pages.update({ROOT / path: name for path, name in BESIDE.items()})
         self.pages = pages
 
@@ -153,7 +154,7 @@ class Sources:
             # After the first paragraph, before the parts.
             head, first, rest = text.split("\n\n", 2)
             text = f"{head}\n\n{first}\n{offered(self.notebooks[source])}\n{rest}"
-        if source.name == "theory.md":
+        if source in statements.CHAPTERS:
             text = re.sub(r'^<a id="[^"]*"></a>\n', "", text, flags=re.M)
             text = statements.START.sub(lambda m: f"({statements.anchor(m[2])})=\n{m[0]}", text)
         return text
@@ -163,6 +164,8 @@ class Sources:
             text = self.text(source)
             if name == "index.md":
                 text += "\n" + "".join(f"```{{toctree}}\n:hidden:\n:caption: {caption}\n\n" + "\n".join(pages) + "\n```\n\n" for caption, pages in ORDER.items())
+            if name == "theory.md":
+                text += "\n```{toctree}\n:hidden:\n\n" + "\n".join(map(statements.page, statements.CHAPTERS)) + "\n```\n"
             put(folder / name, text)
         put(folder / "statements.md", statements.markdown())
         put(folder / "api.md", api())

@@ -1,4 +1,4 @@
-"""The statements of docs/theory.md: where each is in the code, what names it, and what the Coq development has of it."""
+"""The statements of the theory: where each is in the code, what names it, and what the Coq development has of it."""
 
 import re
 from html import escape
@@ -6,17 +6,18 @@ from html import escape
 from .program import ROOT
 
 START = re.compile(r"^\*\*((?:Theorem|Lemma|Proposition|Corollary|Example|Remark|Definition)) (\d+\.\d+)", re.M)
+CHAPTERS = sorted((ROOT / "docs/theory").glob("*.md"))
 
 
 def statements():
     """Number to kind and text, by number."""
-    text = (ROOT / "docs/theory.md").read_text().split("\n## References")[0]
-    starts = list(START.finditer(text))
-    ends = [m.start() for m in starts[1:]] + [len(text)]
     found = {}
-    for start, end in zip(starts, ends):
-        body = re.split(r"^## ", text[start.start() : end], flags=re.M)[0]
-        found[start.group(2)] = (start.group(1), body)
+    for chapter in CHAPTERS:
+        text = chapter.read_text()
+        starts = list(START.finditer(text))
+        ends = [m.start() for m in starts[1:]] + [len(text)]
+        for start, end in zip(starts, ends):
+            found[start.group(2)] = (start.group(1), text[start.start() : end])
     return dict(sorted(found.items(), key=lambda item: key(item[0])))
 
 
@@ -33,6 +34,16 @@ def mentions(found):
 def anchor(number):
     """The id of a statement on the page of the theory: it begins with a letter."""
     return "s" + number.replace(".", "-")
+
+
+def page(chapter):
+    """The name of a chapter's page on the site, without its ending."""
+    return f"theory-{chapter.stem}"
+
+
+def homes():
+    """The page of each statement, by number."""
+    return {m[2]: page(chapter) for chapter in CHAPTERS for m in START.finditer(chapter.read_text())}
 
 
 def key(number):
@@ -65,6 +76,7 @@ def picture(found, uses, in_coq):
         sections.setdefault(key(number)[0], []).append(number)
     at = {n: (50 + 66 * k, 40 + 24 * row) for k, section in enumerate(sorted(sections)) for row, n in enumerate(sections[section])}
     height = 60 + 24 * max(map(len, sections.values()))
+    home = homes()
     arcs = []
     for number, named in uses.items():
         for other in named:
@@ -72,7 +84,7 @@ def picture(found, uses, in_coq):
             bend = 18 if x1 == x2 else 0
             arcs.append(f'<path data-from="{number}" data-to="{other}" d="M{x1} {y1}C{(x1 + x2) / 2 - bend} {y1} {(x1 + x2) / 2 - bend} {y2} {x2} {y2}"/>')
     boxes = [
-        f'<a href="theory.html#{anchor(n)}" data-number="{n}"><title>{found[n][0]} {n}</title><rect class="{"coq" if n in in_coq else ""}" x="{x - 21}" y="{y - 9}" width="42" height="18" rx="5"/><text x="{x}" y="{y}">{n}</text></a>'
+        f'<a href="{home[n]}.html#{anchor(n)}" data-number="{n}"><title>{found[n][0]} {n}</title><rect class="{"coq" if n in in_coq else ""}" x="{x - 21}" y="{y - 9}" width="42" height="18" rx="5"/><text x="{x}" y="{y}">{n}</text></a>'
         for n, (x, y) in at.items()
     ]
     heads = [f'<text class="head" x="{50 + 66 * k}" y="16">§{section}</text>' for k, section in enumerate(sorted(sections))]
@@ -85,7 +97,8 @@ def markdown():
     found = statements()
     uses, where, in_coq = mentions(found), places(), proved()
     used = {n: sorted((m for m in uses if n in uses[m]), key=key) for n in found}
-    link = lambda n: f"[{n}](theory.md#{anchor(n)})"
+    home = homes()
+    link = lambda n: f"[{n}]({home[n]}.md#{anchor(n)})"
     code = lambda cell: re.sub(r"\[(`[^`]+`)\]\[[^]]*\]", r"\1", cell)
     lines = [
         "# Statements", "",
