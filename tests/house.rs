@@ -250,3 +250,23 @@ fn there_is_one_version() {
         "{newest:?}"
     );
 }
+
+/// The page says which test holds what: `file::name`.
+#[test]
+fn the_tests_of_the_page_exist() {
+    let page = fs::read_to_string(root().join("docs/house.md")).unwrap();
+    let words = page.split('`').skip(1).step_by(2);
+    let mut count = 0;
+    for (file, name) in words.filter_map(|word| word.split_once("::")) {
+        let text = fs::read_to_string(root().join(file)).expect(file);
+        let test = text.split(&format!("\nfn {name}()")).next().unwrap();
+        assert_ne!(test, text, "{file} has no {name}");
+        let attributes = test.lines().rev().take_while(|line| line.starts_with("#["));
+        assert!(
+            attributes.into_iter().any(|line| line == "#[test]"),
+            "{file}: {name}"
+        );
+        count += 1;
+    }
+    assert!(count > 10, "{count}");
+}

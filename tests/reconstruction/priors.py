@@ -1,4 +1,4 @@
-"""Does the advice on priors pay? (docs/models.md)
+"""Does the advice on priors pay? (lab/docs/intrinsics.md)
 
 Cameras of each graph are divided at random into classes, one third each. Then one camera after another is calibrated, until
 all intrinsics are determined: the one that `verify advise GRAPH --intrinsics FILE --suggest=1` names first, or, for
