@@ -13,9 +13,8 @@
     python3 benches/measure.py against OLD   [--data DIR]
 
 `against` holds the program against an older `verify`, built from another checkout.
-Needs the programs of `cargo build --release --workspace --bins --examples`; `rational` and
-`cores` also FLINT (Debian: libflint-dev) and gcc, and `rational` takes in the GMP build if
-`cargo build --release --features gmp --target-dir target/gmp` has been made.
+Needs the programs that README.md builds first; `rational` and `cores` also FLINT (Debian:
+libflint-dev) and gcc, and `rational` takes in the GMP build if it is there.
 
 Every figure is a median over several runs of a process of its own, runs of the compared
 programs taking turns. Wall-clock times include starting the process. On a machine that does
