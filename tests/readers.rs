@@ -338,6 +338,10 @@ mod edge_lists {
                     if head && (expected.is_none() || found.0.iter().any(holds)) {
                         continue;
                     }
+                    // Between tabs or commas a field may begin as a comment does.
+                    if found.0.iter().any(|name| name.starts_with(['#', '%'])) {
+                        continue;
+                    }
                     prop_assert_eq!(Some(found), expected, "{:?} {:?}", format, &named.read);
                     count.set(count.get() + 1);
                     heads.set(heads.get() + usize::from(head));
