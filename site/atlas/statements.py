@@ -6,7 +6,7 @@ from html import escape
 from .program import ROOT
 
 START = re.compile(r"^\*\*((?:Theorem|Lemma|Proposition|Corollary|Example|Remark|Definition)) (\d+\.\d+)", re.M)
-CHAPTERS = sorted((ROOT / "docs/theory").glob("*.md"))
+CHAPTERS = [*sorted((ROOT / "docs/theory").glob("*.md")), ROOT / "lab/docs/theory.md"]
 
 
 def statements():
@@ -38,7 +38,7 @@ def anchor(number):
 
 def page(chapter):
     """The name of a chapter's page on the site, without its ending."""
-    return f"theory-{chapter.stem}"
+    return "theory-lab" if chapter.stem == "theory" else f"theory-{chapter.stem}"
 
 
 def homes():
