@@ -1,7 +1,7 @@
 //! `verify catalog`: all candidates of a size, decided and certified.
 
 use super::certificates::Target;
-use anyhow::{Context, Error, Result, ensure};
+use anyhow::{Context, Result, ensure};
 use clap::Args;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -13,7 +13,7 @@ use viewcert::graph::{Graph, Labels};
 use viewcert::linalg::prime::{DEFAULT_PRIME, PrimeField};
 use viewcert_catalog::candidates::has_adjacent_nodes_of_degree_2;
 use viewcert_catalog::mine::{COLUMNS, Entry, Summary};
-use viewcert_catalog::{SizeError, candidates, least_edges};
+use viewcert_catalog::{candidates, least_edges};
 use viewcert_formats::{NamedGraph, csv};
 use viewcert_report::table;
 use viewcert_session::Session;
@@ -95,7 +95,7 @@ pub(super) fn run(session: &Session, arguments: &Arguments) -> Result<u8> {
     for nodes in arguments.nodes.clone() {
         let start = Instant::now();
         let edges = arguments.edges.unwrap_or_else(|| least_edges(nodes.max(2)));
-        let mut graphs = candidates(nodes, edges, &session.watch()).map_err(told)?;
+        let mut graphs = candidates(nodes, edges, &session.watch())?;
         if arguments.necessary {
             graphs.retain(|graph| nodes == 3 || !has_adjacent_nodes_of_degree_2(graph));
         }
@@ -136,14 +136,6 @@ pub(super) fn run(session: &Session, arguments: &Arguments) -> Result<u8> {
         table::write(&mut std::io::stdout().lock(), &rows).context("standard output")?;
     }
     Ok(GOOD)
-}
-
-/// An error of the candidates; work that was stopped is told apart, for the exit code.
-fn told(error: SizeError) -> Error {
-    match error {
-        SizeError::Stopped(stopped) => stopped.into(),
-        error => error.into(),
-    }
 }
 
 /// The verdicts on some graphs, in their order.

@@ -9,11 +9,11 @@ use super::{here, input, intrinsics};
 use anyhow::{Context, Error, Result, ensure};
 use std::borrow::Cow;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::{Duration, Instant};
 use viewcert::Known;
 use viewcert::decide as verdict;
-use viewcert::decide::{CountSolutions, Value, Verdict};
+use viewcert::decide::{CountSolutions, Prime, Value, Verdict};
 use viewcert::here::{Centres, Here};
 use viewcert::intrinsics::{Certified, Sensors};
 use viewcert::watch::Watch;
@@ -132,6 +132,11 @@ impl Decided {
         let options = plan.options(known)?.watch(watch.clone());
         let verdict =
             verdict::decide(&input.graph, &options).with_context(|| input.name.clone())?;
+        let mut input = input;
+        if matches!(plan.prime, Prime::Fixed(_)) && verdict.prime().is_none() {
+            let note = "--prime is not used: contraction and counting decide, without residues";
+            input.to_mut().notes.push(note.to_owned());
+        }
         let changed = match input {
             Cow::Borrowed(_) => None,
             Cow::Owned(input) => Some(input),
@@ -268,17 +273,15 @@ impl Work<'_> {
         })
     }
 
-    /// The record of a graph that has no answer; of a single one what standard error says is enough.
+    /// The record of a graph that has no answer.
     fn failed(&mut self, out: &mut impl Write, name: &str, error: &Error) -> Result<()> {
-        let why = format!("{error:#}");
-        let why = why.strip_prefix(&format!("{name}: ")).unwrap_or(&why);
-        match (&mut self.table, &self.plan.form) {
-            (Some(table), _) => table.failed(out, name, why),
-            (None, Form::Json) => json::write_failed(out, name, why),
-            (None, _) if is_only(&self.plan.graphs, name) => return Ok(()),
-            (None, _) => writeln!(out, "{name}\n  error       {why}"),
+        let json = matches!(self.plan.form, Form::Json);
+        match &mut self.table {
+            Some(table) => table
+                .failed(out, name, &input::why(name, error))
+                .context("standard output"),
+            None => input::failed(out, (&self.plan.graphs, json), name, error),
         }
-        .context("standard output")
     }
 
     /// Writes the certificate, the proof and the witness.
@@ -367,11 +370,6 @@ impl Written {
 /// A path for people.
 fn shown(path: &Path) -> String {
     printable(&path.display().to_string())
-}
-
-/// Whether a name is that of the only file. Names of graphs are text, whatever the path is.
-fn is_only(graphs: &[PathBuf], name: &str) -> bool {
-    matches!(graphs, [only] if only.to_string_lossy() == name)
 }
 
 /// Writes the explicit proof, and returns what it shows.

@@ -1,6 +1,6 @@
 //! How graphs are read: the options that all commands with graphs share.
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Error, Result, bail, ensure};
 use clap::{Args, ValueEnum};
 use rayon::prelude::*;
 use std::io::Write;
@@ -14,8 +14,9 @@ use viewcert_formats::{
     read_graphs,
 };
 use viewcert_report::counted;
+use viewcert_report::json::write_failed;
 use viewcert_session::exit::{GOOD, ends_run};
-use viewcert_session::{Session, complain};
+use viewcert_session::{Session, complain, printable};
 
 /// What the graphs' files are, for those that do not show it.
 #[derive(Args)]
@@ -51,7 +52,7 @@ pub struct InputArguments {
     min_inliers: Option<u32>,
     /// In how many images a track has to be seen to count [default: 3, as in global mapping].
     #[arg(long, value_name = "N", help_heading = READING, hide = true)]
-    pub(super) min_views: Option<u32>,
+    min_views: Option<u32>,
     /// Features of one track in one image of a COLMAP database are one if they are at most so many
     /// pixels apart; otherwise the track is dropped [default: 10, as in global mapping].
     #[arg(long, value_name = "PIXELS", help_heading = READING, hide = true)]
@@ -113,8 +114,8 @@ enum FormatName {
 
 impl InputArguments {
     /// Calls `each` for every graph of the files in turn, with the time at which reading it began,
-    /// and flushes after it; a bad graph, or one with which `each` fails, is reported and does not
-    /// stop the others. Returns the worst exit code.
+    /// and flushes after it; a bad graph, or one with which `each` fails, is reported, in JSON if that is
+    /// asked, and does not stop the others. Returns the worst exit code.
     ///
     /// Where `too_many` gives a reason, an input with a second graph is refused before `each` has
     /// seen the first.
@@ -125,12 +126,16 @@ impl InputArguments {
     pub fn for_each<W: Write>(
         &self,
         session: &Session,
-        paths: &[PathBuf],
+        (paths, json): (&[PathBuf], bool),
         too_many: &dyn Fn(&str) -> Option<String>,
         out: &mut W,
-        each: impl FnMut(&mut W, &NamedGraph, Instant) -> Result<u8>,
+        mut each: impl FnMut(&mut W, &NamedGraph, Instant) -> Result<u8>,
     ) -> Result<u8> {
-        for_each(session, &self.of_pairs()?, paths, too_many, out, each)
+        let options = self.of_pairs()?;
+        let read = reader(&options);
+        let each =
+            |out: &mut W, _: &Path, input: Result<Input, _>, start| each(out, &input?.0, start);
+        for_each_read(session, &read, (paths, json), too_many, out, each)
     }
 
     /// How cameras and points are read.
@@ -151,22 +156,22 @@ impl InputArguments {
     /// # Errors
     /// An option that is about tracks.
     pub(super) fn of_pairs(&self) -> Result<ReadOptions> {
-        ensure!(
-            self.min_views.is_none(),
-            "--min-views says which tracks count, and pairs are decided here; leave it out, or say --tracks \
-             where it can be said"
-        );
-        ensure!(
-            self.max_spread.is_none(),
-            "--max-spread says which tracks count, and pairs are decided here; leave it out, or say --tracks \
-             where it can be said"
-        );
-        ensure!(
-            !self.no_rigs,
-            "--no-rigs says how tracks count, and pairs are decided here, without rigs; leave it out, or say \
-             --tracks where it can be said"
-        );
+        if let Some(option) = self.of_tracks_alone() {
+            bail!(
+                "{option} says how tracks count, and pairs are decided here; leave it out, or say --tracks where \
+                 it can be said"
+            );
+        }
         Ok(self.read_options())
+    }
+
+    /// The first option that is about tracks alone, if one is given.
+    pub(super) fn of_tracks_alone(&self) -> Option<&'static str> {
+        of_tracks_alone(
+            self.min_views.is_some(),
+            self.max_spread.is_some(),
+            self.no_rigs,
+        )
     }
 
     /// Whether any option is given.
@@ -174,8 +179,7 @@ impl InputArguments {
         let list = self.columns.is_some() || self.min_weight.is_some() || self.skip_loops;
         let file = self.format.is_some() || self.variable.is_some();
         let database = self.pipeline.is_some() || self.min_inliers.is_some();
-        let tracks = self.min_views.is_some() || self.max_spread.is_some() || self.no_rigs;
-        list || file || database || tracks
+        list || file || database || self.of_tracks_alone().is_some()
     }
 
     /// The options of the readers, but for tracks.
@@ -212,21 +216,29 @@ impl InputArguments {
     }
 }
 
-/// As [`InputArguments::for_each`], with options of the caller.
+/// The first of these options that is given: they are about tracks alone.
+pub fn of_tracks_alone(min_views: bool, max_spread: bool, no_rigs: bool) -> Option<&'static str> {
+    let given = [
+        ("--min-views", min_views),
+        ("--max-spread", max_spread),
+        ("--no-rigs", no_rigs),
+    ];
+    let given = given.into_iter().find(|(_, is_given)| *is_given);
+    given.map(|(option, _)| option)
+}
+
+/// Refuses an option that is about tracks, for an input that has none.
 ///
 /// # Errors
-/// As there.
-pub(super) fn for_each<W: Write>(
-    session: &Session,
-    options: &ReadOptions,
-    paths: &[PathBuf],
-    too_many: &dyn Fn(&str) -> Option<String>,
-    out: &mut W,
-    mut each: impl FnMut(&mut W, &NamedGraph, Instant) -> Result<u8>,
-) -> Result<u8> {
-    let read = reader(options);
-    let each = |out: &mut W, _: &Path, input: Result<Input, _>, start| each(out, &input?.0, start);
-    for_each_read(session, &read, paths, too_many, out, each)
+/// If there is one.
+pub(super) fn ensure_not_of_tracks(option: Option<&str>, path: &Path) -> Result<()> {
+    match option {
+        None => Ok(()),
+        Some(option) => bail!(
+            "{}: {option} says how tracks count, and there are none; leave it out",
+            path.display()
+        ),
+    }
 }
 
 /// How graphs are read with these options.
@@ -251,7 +263,7 @@ pub(super) type Inputs = Box<dyn Iterator<Item = Result<Input, ReadError>>>;
 pub(super) fn for_each_read<W: Write>(
     session: &Session,
     read: &dyn Fn(&Path) -> Inputs,
-    paths: &[PathBuf],
+    (paths, json): (&[PathBuf], bool),
     too_many: &dyn Fn(&str) -> Option<String>,
     out: &mut W,
     mut each: impl FnMut(&mut W, &Path, Result<Input, ReadError>, Instant) -> Result<u8>,
@@ -259,8 +271,52 @@ pub(super) fn for_each_read<W: Write>(
     let inputs = Reading::new(session, read, paths, too_many);
     let ahead = |_: &NamedGraph, _: &Watch| ();
     inputs.for_each(1, out, &ahead, |out, path, input, start| {
-        each(out, path, input.map(|(input, ())| input), start)
+        let name = match &input {
+            Ok(((input, _), ())) => input.name.clone(),
+            Err(error) => error.input(),
+        };
+        let done = each(out, path, input.map(|(input, ())| input), start);
+        if let Err(error) = &done {
+            failed(out, (paths, json), &name, error)?;
+        }
+        done
     })
+}
+
+/// Writes the record of a graph that has no answer; of a single one in words what standard error says is enough.
+///
+/// # Errors
+/// If it cannot be written.
+pub(super) fn failed(
+    out: &mut impl Write,
+    (paths, json): (&[PathBuf], bool),
+    name: &str,
+    error: &Error,
+) -> Result<()> {
+    let is_only = matches!(paths, [only] if only.to_string_lossy() == name);
+    if ends_run(error) || is_only && !json {
+        return Ok(());
+    }
+    let why = why(name, error);
+    let written = match json {
+        true => write_failed(out, name, &why),
+        false => writeln!(
+            out,
+            "{}\n  error       {}",
+            printable(name),
+            printable(&why)
+        ),
+    };
+    written.context("standard output")
+}
+
+/// Why a graph has no answer, without its name.
+pub(super) fn why(name: &str, error: &Error) -> String {
+    let why = format!("{error:#}");
+    let bare = why
+        .strip_prefix(name)
+        .and_then(|rest| rest.strip_prefix(": "));
+    bare.map_or(why.clone(), str::to_owned)
 }
 
 /// Most graphs that are decided side by side, and pairs in these.

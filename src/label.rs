@@ -60,7 +60,14 @@ pub(super) fn run(session: &Session, arguments: &LabelArguments) -> Result<u8> {
         }
         Ok(GOOD)
     };
-    let code = for_each_read(session, &read, paths, &|_| None, &mut out, each)?;
+    let code = for_each_read(
+        session,
+        &read,
+        (paths, arguments.json),
+        &|_| None,
+        &mut out,
+        each,
+    )?;
     Ok(code)
 }
 

@@ -10,6 +10,7 @@ mod bounds;
 mod catalog;
 mod certificates;
 mod check;
+mod command_line;
 mod convert;
 mod decisions;
 mod draw;
@@ -34,7 +35,8 @@ mod witness;
 
 pub use bounds::Bounds;
 pub use check::{Archive, News, Statement, Terms, check_archive};
-pub use input::InputArguments;
+pub use command_line::parse;
+pub use input::{InputArguments, of_tracks_alone};
 pub use limits::LimitArguments;
 pub use lists::Asked as ListsAsked;
 pub use merge::Asked as MergeAsked;
@@ -136,7 +138,7 @@ enum Command {
 /// Runs the program on its name and arguments, and returns the exit code. Where these ask for help or are
 /// wrong, the process ends here.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
-    let arguments = CommandLine::parse_from(arguments);
+    let arguments: CommandLine = parse(arguments);
     let limits = arguments.limits.limits();
     Session::run("verify", &limits, |session| run(session, &arguments))
 }

@@ -1,6 +1,6 @@
 //! `verify lists GRAPH FILE...`: whether lists of images are whole, and what their overlaps fix.
 
-use super::input::InputArguments;
+use super::input::{InputArguments, ensure_not_of_tracks};
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 use std::collections::BTreeSet;
@@ -43,8 +43,8 @@ pub struct Asked<'a> {
     pub options: ReadOptions,
     /// How the tracks of a list are read.
     pub of_tracks: ReadOptions,
-    /// Whether it was said in how many images a track has to be seen.
-    pub says_views: bool,
+    /// An option that is about tracks alone, if one is given.
+    pub of_tracks_alone: Option<&'static str>,
 }
 
 impl Asked<'_> {
@@ -63,11 +63,9 @@ impl Asked<'_> {
         let mut input = first(self.graph, &self.options)?;
         session.hide();
         let by_tracks = input.database.is_some();
-        ensure!(
-            by_tracks || !self.says_views,
-            "--min-views says which tracks of a database count, and {} has pairs alone; leave it out",
-            self.graph.display()
-        );
+        if !by_tracks {
+            ensure_not_of_tracks(self.of_tracks_alone, self.graph)?;
+        }
         let files = self.files.iter();
         let found = files.map(|file| list(session, self, &mut input, file));
         let found = found.collect::<Result<Vec<List>>>()?;
@@ -92,7 +90,7 @@ pub(super) fn run(session: &Session, arguments: &ListArguments) -> Result<u8> {
         files: &arguments.files,
         options: arguments.input.read_options(),
         of_tracks: arguments.input.of_tracks(),
-        says_views: arguments.input.min_views.is_some(),
+        of_tracks_alone: arguments.input.of_tracks_alone(),
     };
     asked.of(session, |report| {
         outputs::answer(

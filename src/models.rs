@@ -67,8 +67,8 @@ pub(super) fn run(session: &Session, arguments: &ModelsArguments) -> Result<u8> 
         let good = |verdict: &&Verdict| verdict.value != Value::NotFiniteSolvable;
         Ok(if verdicts.iter().all(good) { GOOD } else { NOT })
     };
-    let code = arguments
+    let inputs = (&*arguments.graphs, arguments.json);
+    arguments
         .input
-        .for_each(session, &arguments.graphs, &too_many, &mut out, each)?;
-    Ok(code)
+        .for_each(session, inputs, &too_many, &mut out, each)
 }

@@ -56,8 +56,8 @@ pub struct Asked {
     pub options: ReadOptions,
     /// How cameras and points are read.
     pub of_tracks: ReadOptions,
-    /// Whether it was said in how many images a track has to be seen.
-    pub says_views: bool,
+    /// An option that is about tracks alone, if one is given.
+    pub of_tracks_alone: Option<&'static str>,
 }
 
 impl Asked {
@@ -125,7 +125,7 @@ pub(super) fn run(session: &Session, arguments: &OverviewArguments) -> Result<u8
     let asked = Asked {
         options: arguments.input.read_options(),
         of_tracks: arguments.input.of_tracks(),
-        says_views: arguments.input.min_views.is_some(),
+        of_tracks_alone: arguments.input.of_tracks_alone(),
     };
     let each = |out: &mut _, path: &Path, read: Result<Input, ReadError>, start| {
         let source = source(session, &asked, path, read)?;
@@ -142,8 +142,8 @@ pub(super) fn run(session: &Session, arguments: &OverviewArguments) -> Result<u8
         })
     };
     let read = |path: &Path| asked.inputs(path);
-    let code = input::for_each_read(session, &read, &arguments.inputs, &too_many, &mut out, each)?;
-    Ok(code)
+    let inputs = (&*arguments.inputs, arguments.json);
+    input::for_each_read(session, &read, inputs, &too_many, &mut out, each)
 }
 
 /// Reads the tracks that belong to what was read.
@@ -189,6 +189,9 @@ fn source(
         Some(_) if pairs.graph.edges().is_empty() => Err("no pair is used".to_owned()),
         Some(database) => read_tracks(session, asked, path, database)?,
     };
+    if tracks.is_err() {
+        input::ensure_not_of_tracks(asked.of_tracks_alone, path)?;
+    }
     Ok(Source {
         pairs: Some(pairs),
         tracks,
@@ -318,7 +321,7 @@ fn overview(
     };
     let mut found = Overview {
         name: &input.name,
-        notes: notes(wish.says_views, &source),
+        notes: notes(&source),
         read: &input.read,
         pairs: pairs
             .as_ref()
@@ -366,7 +369,7 @@ fn write_page(session: &Session, file: &Path, found: &Overview) -> Result<()> {
 }
 
 /// What was merged, ignored or guessed, and where the choice of pairs is not that of both mappers.
-fn notes(says_views: bool, source: &Source) -> Vec<String> {
+fn notes(source: &Source) -> Vec<String> {
     let mut notes = Vec::new();
     let inputs = source.pairs.iter().chain(&source.tracks);
     for note in inputs.flat_map(|input| &input.notes) {
@@ -381,8 +384,5 @@ fn notes(says_views: bool, source: &Source) -> Vec<String> {
     let other = facts.and_then(|facts| other_mapper(facts));
     let other = other.filter(|note| !notes.contains(note));
     notes.extend(other);
-    if says_views && source.tracks.is_err() {
-        notes.push("--min-views is ignored: there are no tracks".to_owned());
-    }
     notes
 }

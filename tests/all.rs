@@ -8,6 +8,7 @@ mod act;
 mod act_outputs;
 mod affine;
 mod affine_certificates;
+mod arguments;
 mod audit;
 mod audit_cameras;
 mod base_lines;

@@ -67,7 +67,7 @@ fn a_metric_answer_is_the_exit_code() {
     let run = with(cycle, "default known\n", &[]);
     assert_eq!(run.code, 0, "{}", run.out);
     assert!(
-        run.out.contains("verdict     not finite solvable"),
+        run.out.contains("verdict     not-finite-solvable"),
         "{}",
         run.out
     );

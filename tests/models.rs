@@ -214,8 +214,8 @@ fn all_models_side_by_side() {
     let run = verify_with(cycle(4).as_bytes(), &["models", "-"]);
     assert_eq!(run.code, 1);
     for line in [
-        "  affine      not solvable, rank 16 of 20, 4 components (proved)",
-        "  projective  not finite solvable, rank 28 of 29, 4 components (proved)",
+        "  affine      not-finite-solvable, rank 16 of 20, 4 components (proved)",
+        "  projective  not-finite-solvable, rank 28 of 29, 4 components (proved)",
         "  calibrated  solvable, rank 8 of 8, 1 component (proved)",
         "calibrated component 1 (4 cameras) joins the projective components 1, 2, 3, 4 at 0, 1, 2, 3",
     ] {

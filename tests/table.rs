@@ -21,14 +21,14 @@ fn a_line_each_and_a_summary() {
         ["4", "100", "%", "6", "1", "solvable"]
     );
     assert_eq!(
-        cells(lines[2])[1..9],
-        ["4", "67", "%", "4", "4", "not", "finite", "solvable"]
+        cells(lines[2])[1..7],
+        ["4", "67", "%", "4", "4", "not-finite-solvable"]
     );
     assert_eq!(
         cells(lines[3])[..6],
         ["examples/house.txt", "5", "60", "%", "6", "4"]
     );
-    let summary = "3 graphs: 1 solvable, 2 not finite solvable; 9 components, ";
+    let summary = "3 graphs: 1 solvable, 2 not-finite-solvable; 9 components, ";
     assert!(lines[4].starts_with(summary), "{}", run.out);
     // Columns stand below their heads.
     for head in ["cameras", "verdict", "time"] {
@@ -37,7 +37,7 @@ fn a_line_each_and_a_summary() {
     }
     let affine = verify_with(LIST, &["--table", "--model", "affine", "-"]).out;
     assert!(
-        affine.contains("2 graphs: 1 solvable, 1 not solvable; "),
+        affine.contains("2 graphs: 1 solvable, 1 not-finite-solvable; "),
         "{affine}"
     );
 }
@@ -52,7 +52,7 @@ fn other_formats() {
     assert_eq!(heads[..4], ["name", "nodes", "density_percent", "edges"]);
     let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
     assert_eq!(rows.len(), 2);
-    assert_eq!(&rows[1][4], "not finite solvable");
+    assert_eq!(&rows[1][4], "not-finite-solvable");
     assert!(rows[1][7].parse::<f64>().unwrap() >= 0.0);
 
     let run = verify_with(LIST, &["--table=latex", "-"]);
@@ -63,7 +63,7 @@ fn other_formats() {
     );
     assert!(
         run.out
-            .contains(" & 4 & 67 & 4 & not finite solvable & 4 & 0.0"),
+            .contains(" & 4 & 67 & 4 & not-finite-solvable & 4 & 0.0"),
         "{}",
         run.out
     );
@@ -258,7 +258,7 @@ fn a_table_counts_what_it_shows() {
     let verdicts: Vec<&str> = found.iter().map(|row| &*row["verdict"]).collect();
     assert_eq!(
         verdicts,
-        ["solvable", "finite solvable", "not finite solvable"]
+        ["solvable", "finite-solvable", "not-finite-solvable"]
     );
     assert!(!found[0].contains_key("solutions"));
     for how in ["--solutions", "--solutions=full"] {

@@ -379,7 +379,7 @@ fn solutions_are_counted() {
         "{said}"
     );
     assert!(
-        said.contains("finite solvable: exactly 2 solutions over the complex numbers (proved)"),
+        said.contains("finite-solvable: exactly 2 solutions over the complex numbers (proved)"),
         "{said}"
     );
     assert!(
@@ -388,7 +388,7 @@ fn solutions_are_counted() {
     );
     let said = verify_with(b"HBQkcP_\n", &["-", "--solutions=off"]).out;
     assert!(
-        said.contains("finite solvable: finitely many sets of cameras (proved)"),
+        said.contains("finite-solvable: finitely many sets of cameras (proved)"),
         "{said}"
     );
     for bad in [

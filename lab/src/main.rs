@@ -67,7 +67,7 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    let arguments = CommandLine::parse();
+    let arguments: CommandLine = viewcert_cli::parse(std::env::args_os());
     let limits = arguments.limits.limits();
     let code = Session::run("viewcert-lab", &limits, |session| {
         match &arguments.command {

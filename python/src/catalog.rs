@@ -12,7 +12,7 @@ use viewcert::graph::graph6;
 use viewcert::linalg::prime::{DEFAULT_PRIME, PrimeField};
 use viewcert::watch::Watch;
 use viewcert::{CountSolutions, Graph, Options, Prime, Projective, VerdictError};
-use viewcert_catalog::candidates::{SizeError, has_adjacent_nodes_of_degree_2};
+use viewcert_catalog::candidates::has_adjacent_nodes_of_degree_2;
 use viewcert_catalog::label::{Label, greatest};
 use viewcert_catalog::mine::{COLUMNS, Entry};
 use viewcert_catalog::{candidates, least_edges};
@@ -74,10 +74,7 @@ impl Candidates {
         // What cannot be asked for is refused now and not by the first entry.
         let stop = watch.clone();
         let graphs = job.run(py, move || candidates(nodes, edges, &stop))?;
-        let mut graphs = graphs.map_err(|error| match error {
-            SizeError::Stopped(stopped) => of_any(&stopped.into()),
-            other => of_any(&other.into()),
-        })?;
+        let mut graphs = graphs.map_err(|error| of_any(&error.into()))?;
         if necessary && nodes > 3 {
             graphs.retain(|graph| !has_adjacent_nodes_of_degree_2(graph));
         }

@@ -10,7 +10,9 @@ use pyo3::types::PyBytes;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use viewcert_check::Failure;
-use viewcert_cli::{ListsAsked, MergeAsked, News, OverviewAsked, Terms, check_archive};
+use viewcert_cli::{
+    ListsAsked, MergeAsked, News, OverviewAsked, Terms, check_archive, of_tracks_alone,
+};
 use viewcert_formats::ReadOptions;
 use viewcert_formats::folder::Listing;
 use viewcert_report::overview_page;
@@ -34,6 +36,15 @@ pub(crate) struct Reading {
 }
 
 impl Reading {
+    /// The first option that is about tracks alone, if one is given.
+    fn of_tracks_alone(&self) -> Option<&'static str> {
+        of_tracks_alone(
+            self.min_views.is_some(),
+            self.max_spread.is_some(),
+            !self.rigs,
+        )
+    }
+
     /// The options for pairs, and for tracks.
     fn options(&self) -> PyResult<[ReadOptions; 2]> {
         let of = |min_views| -> PyResult<ReadOptions> {
@@ -71,7 +82,7 @@ pub(crate) fn overview<'py>(
     let asked = OverviewAsked {
         options,
         of_tracks,
-        says_views: reading.min_views.is_some(),
+        of_tracks_alone: reading.of_tracks_alone(),
     };
     let job = Job::new(py)?;
     let session = Session::under(job.watch());
@@ -99,7 +110,7 @@ pub(crate) fn lists(
     reading: Reading,
 ) -> PyResult<(String, String)> {
     let [options, of_tracks] = reading.options()?;
-    let says_views = reading.min_views.is_some();
+    let of_tracks_alone = reading.of_tracks_alone();
     let job = Job::new(py)?;
     let session = Session::under(job.watch());
     let work = move || -> anyhow::Result<(String, String)> {
@@ -108,7 +119,7 @@ pub(crate) fn lists(
             files: &files,
             options,
             of_tracks,
-            says_views,
+            of_tracks_alone,
         };
         let (mut json, mut text) = (Vec::new(), Vec::new());
         asked.of(&session, |report| {

@@ -70,7 +70,7 @@ def test_an_error_bound_says_how_large_it_is() -> None:
 
 def test_notebooks_show_the_graph_in_colours() -> None:
     shown = viewcert.verify([("<script>", "b"), ("b", "c")])._repr_html_()
-    assert "<svg" in shown and "not finite solvable" in shown
+    assert "<svg" in shown and "not-finite-solvable" in shown
     assert "<script>" not in shown, "names are escaped"
 
 

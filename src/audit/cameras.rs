@@ -50,9 +50,10 @@ pub(super) fn run(session: &Session, arguments: &AuditArguments, path: &Path) ->
             out,
         )
     };
-    let (input, graphs) = (&arguments.input, &arguments.graphs);
-    let code = input.for_each(session, graphs, &reason, &mut out, each)?;
-    Ok(code)
+    let inputs = (&*arguments.graphs, arguments.json);
+    arguments
+        .input
+        .for_each(session, inputs, &reason, &mut out, each)
 }
 
 fn one(

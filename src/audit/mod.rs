@@ -156,9 +156,13 @@ pub(super) fn run(session: &Session, arguments: &AuditArguments) -> Result<u8> {
         let agree = one(session, arguments, input, target.as_mut(), out)?;
         Ok(if agree { GOOD } else { NOT })
     };
-    let code = arguments
-        .input
-        .for_each(session, &arguments.graphs, &too_many, &mut out, each)?;
+    let code = arguments.input.for_each(
+        session,
+        (&arguments.graphs, arguments.json),
+        &too_many,
+        &mut out,
+        each,
+    )?;
     Ok(code)
 }
 

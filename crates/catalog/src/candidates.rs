@@ -46,7 +46,7 @@ pub enum SizeError {
         most: usize,
     },
     /// The work was stopped.
-    #[error(transparent)]
+    #[error("candidates")]
     Stopped(#[from] Stopped),
 }
 
@@ -81,7 +81,7 @@ pub fn candidates(nodes: usize, edges: usize, watch: &Watch) -> Result<Vec<Graph
             let by_node = smaller.map_or(&[][..], |k| &fewer[k]).iter().map(with_node);
             let by_path = smaller.map_or(&[][..], |k| &all[k]).iter().map(with_path);
             let grown: Vec<Vec<Graph>> = by_pair.chain(by_node).chain(by_path).collect();
-            all.push(of_each_class(&grown, watch)?);
+            all.push(of_each_class(&grown, n, watch)?);
         }
         fewer = all;
     }
@@ -100,8 +100,8 @@ pub fn has_adjacent_nodes_of_degree_2(graph: &Graph) -> bool {
 }
 
 /// One graph of each isomorphism class: that with the greatest line of graph6.
-fn of_each_class(grown: &[Vec<Graph>], watch: &Watch) -> Result<Vec<Graph>, Stopped> {
-    let task = watch.task(Step::Contraction, 0);
+fn of_each_class(grown: &[Vec<Graph>], nodes: usize, watch: &Watch) -> Result<Vec<Graph>, Stopped> {
+    let task = watch.task(Step::Enumeration, nodes);
     let classes = grown.par_iter().map(|graphs| {
         task.check()?;
         Ok(graphs.iter().filter_map(greatest).collect::<Vec<_>>())

@@ -117,6 +117,14 @@ pub enum Problem {
         /// What to do about it.
         advice: &'static str,
     },
+    /// An option that says nothing about such an input.
+    #[error("{option}: {why}")]
+    Unused {
+        /// The option.
+        option: &'static str,
+        /// Why.
+        why: &'static str,
+    },
     /// A text that is no list of pairs, or may be something else.
     #[error("{}", .0.what)]
     Refused(Refusal),
@@ -455,6 +463,7 @@ impl Problem {
             Self::Inflated(_) => {
                 "if you trust it, unpack it first (`gunzip`, `bunzip2`, `unxz`, `unzstd --memory=2048MB`)"
             }
+            Self::Unused { .. } => "leave it out",
             Self::NoNodes => "give at least one pair of cameras",
             Self::Empty | Self::NothingGiven(_) => {
                 "write on each line `part` and cameras whose relative position is known, `displacement` and two cameras, or `position` and a camera"

@@ -78,9 +78,9 @@ pub(super) fn known(head: &[u8]) -> Option<Problem> {
                 return own(what, advice);
             }
         }
-        // All reports begin with the program.
-        let report = text.starts_with("{\"program\":{\"name\":\"verify\"")
-            || member("program").is_some_and(|value| value.starts_with("\"viewcert"));
+        let own_program = ["{\"name\":\"verify\"", "\"viewcert"];
+        let report = member("program")
+            .is_some_and(|value| own_program.iter().any(|own| value.starts_with(own)));
         return if report {
             own("a report", REPORT)
         } else {

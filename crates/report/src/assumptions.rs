@@ -80,7 +80,7 @@ impl Planar {
         let answer = if self.is_determined() {
             "solvable: the cameras are unique"
         } else {
-            "not solvable: infinitely many sets of cameras"
+            "not-finite-solvable: infinitely many sets of cameras"
         };
         let Self {
             rank,
@@ -182,12 +182,12 @@ impl BaseLines {
                 "open: not determined at drawn positions, and counting gives no proof (rank {rank_at_most} at most)"
             ),
             _ if rank == rank_at_most => format!(
-                "not solvable: {}{} move against each other (proved)",
+                "not-finite-solvable: {}{} move against each other (proved)",
                 if self.parts_proved { "" } else { "at least " },
                 counted(self.parts, "part")
             ),
             _ => format!(
-                "not solvable (proved): {} move against each other at drawn positions, rank \
+                "not-finite-solvable (proved): {} move against each other at drawn positions, rank \
                  {rank_at_most} at most",
                 counted(self.parts, "part")
             ),

@@ -114,7 +114,7 @@ impl AtCameras<'_> {
             centres_sha256: hex(&here.sha256),
             notes: &self.input.notes,
         };
-        write_line(out, &line)
+        write_line(out, "float_ruling", &line)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::json::{GraphLine, write_line};
 use super::read::ReadLine;
-use super::{counted, size, text};
+use super::{counted, size};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::time::Duration;
@@ -73,7 +73,7 @@ pub fn text(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
     writeln!(
         out,
         "  exact       {} ({}), components {}, {:.3} s",
-        text::value(exact.value, exact.model),
+        exact.value.name(),
         exact.value_claim().strength.name(),
         exact.components.len(),
         audit.exact_time.as_secs_f64()
@@ -201,5 +201,5 @@ pub fn json(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
         misjudged: audit.float.misjudged,
         reason: audit.reason(),
     };
-    write_line(out, &line)
+    write_line(out, "audit", &line)
 }

@@ -165,6 +165,11 @@ impl<'a> Picture<'a> {
         }
     }
 
+    /// What edges are.
+    fn edge_words(&self) -> String {
+        format!("{}s", self.edge_word())
+    }
+
     /// Whether nodes and edges are drawn one by one.
     pub fn is_detailed(&self) -> bool {
         let graph = &self.input.graph;
@@ -296,16 +301,29 @@ pub struct Drawn {
 }
 
 impl Drawn {
-    /// Adds a line of words below.
+    /// Adds words below.
     fn note(&mut self, words: &str) {
-        // Writing to a string does not fail.
-        let _ = writeln!(
-            self.body,
-            r##"<text x="{MARGIN}" y="{:.1}" font-size="12" class="ink-text" fill="#444">{words}</text>"##,
-            self.size[1] + 6.0
-        );
-        let [width, height] = self.size;
-        self.size = [width.max(LEAST_WIDTH / 2.0), height + 16.0];
+        const LETTER: f64 = 6.4;
+        self.size[0] = self.size[0].max(LEAST_WIDTH);
+        let most = ((self.size[0] - 2.0 * MARGIN) / LETTER) as usize;
+        let mut lines = vec![String::new()];
+        for word in words.split(' ') {
+            let line = lines.last_mut().expect("never empty");
+            match line.len() + word.len() < most {
+                true => *line += &format!("{word} "),
+                false => lines.push(format!("{word} ")),
+            }
+        }
+        for line in lines {
+            // Writing to a string does not fail.
+            let _ = writeln!(
+                self.body,
+                r##"<text x="{MARGIN}" y="{:.1}" font-size="12" class="ink-text" fill="#444">{}</text>"##,
+                self.size[1] + 6.0,
+                line.trim_end()
+            );
+            self.size[1] += 16.0;
+        }
     }
 }
 
@@ -614,7 +632,10 @@ fn legend(picture: &Picture) -> Vec<(String, String)> {
     let (larger, count) = (picture.larger(), picture.sizes.len());
     let listed = picture.marked().min(LISTED);
     let mut entries: Vec<(String, String)> = (0..listed)
-        .map(|k| (symbol(picture.mark(k), 6.0), picture.sizes[k].words()))
+        .map(|k| {
+            let text = format!("{}: {}", k + 1, picture.sizes[k].words());
+            (symbol(picture.mark(k), 6.0), text)
+        })
         .collect();
     let pairs = if larger == 0 {
         count - listed
@@ -623,7 +644,7 @@ fn legend(picture: &Picture) -> Vec<(String, String)> {
     };
     let more = count - listed - pairs;
     if more > 0 {
-        entries.push((symbol(Mark::Other, 6.0), counted(more, "smaller component")));
+        entries.push((symbol(Mark::Other, 6.0), counted(more, "more component")));
     }
     if pairs > 0 {
         let line = format!(r#"<path d="M-7 0H7" stroke="{GREY}" stroke-width="2"/>"#);
@@ -646,7 +667,7 @@ fn legend(picture: &Picture) -> Vec<(String, String)> {
         .filter(|&v| picture.components_of(v).is_empty());
     let isolated = isolated.count();
     if isolated > 0 {
-        let what = format!("without {}s", picture.edge_word());
+        let what = format!("without {}", picture.edge_words());
         let text = format!("{} {what}", counted(isolated, "camera"));
         entries.push((alone(6.0), text));
     }
@@ -657,7 +678,9 @@ fn legend(picture: &Picture) -> Vec<(String, String)> {
 fn draw_components(picture: &Picture) -> Drawn {
     let discs = Discs::new(picture);
     let radii = discs.radii();
-    let found = layout(&radii, &discs.links(&radii));
+    // Shapes with corners take more room than discs.
+    let room: Vec<f64> = radii.iter().map(|radius| 1.25 * radius).collect();
+    let found = layout(&room, &discs.links(&room));
     let scale = ((WIDTH - 2.0 * MARGIN) / found.size[0]).min(1.0);
     let places: Vec<[f64; 2]> = found
         .points
@@ -674,13 +697,22 @@ fn draw_components(picture: &Picture) -> Drawn {
         body,
         size: found.size.map(|x| scale * x + 2.0 * MARGIN),
     };
-    let hidden = picture.sizes.len() - discs.count - discs.joined.values().sum::<usize>();
-    if hidden > 0 {
-        drawn.note(&format!(
-            "not drawn: {}",
-            counted(hidden, "smaller component")
-        ));
+    let joining: usize = discs.joined.values().sum();
+    let mut words = format!(
+        "{} are too many to draw: a symbol is a component, with its number in the report; its area is as its cameras.",
+        counted(picture.cameras(), "camera")
+    );
+    if joining > 0 {
+        words += &format!(" A line: {} that join two of them.", picture.edge_words());
     }
+    if !discs.hinges.is_empty() {
+        words += " A dot: a node in several.";
+    }
+    let hidden = picture.sizes.len() - discs.count - joining;
+    if hidden > 0 {
+        words += &format!(" not drawn: {}.", counted(hidden, "smaller component"));
+    }
+    drawn.note(&words);
     drawn
 }
 
@@ -786,10 +818,18 @@ impl<'a> Discs<'a> {
     }
 }
 
-/// A component as a disc, with its number of cameras if there is room.
+/// A component as a disc, with its number, and how many cameras it has if there is room.
 fn write_disc(body: &mut String, picture: &Picture, k: usize, [x, y]: [f64; 2], radius: f64) {
     let (mark, size) = (picture.mark(k), picture.sizes[k]);
     let mut text = String::new();
+    let mut write = |y: f64, high: f64, fill: &str, words: &str| {
+        // Writing to a string does not fail.
+        let _ = write!(
+            text,
+            r#"<text y="{y:.1}" font-size="{high:.0}" text-anchor="middle" {fill}>{words}</text>"#
+        );
+    };
+    let number = (k + 1).to_string();
     if radius > 12.0 {
         let high = (radius * 0.45).clamp(8.0, 22.0);
         // A triangle has its room below the middle.
@@ -797,13 +837,22 @@ fn write_disc(body: &mut String, picture: &Picture, k: usize, [x, y]: [f64; 2], 
             2 => 0.25 * radius,
             _ => 0.0,
         };
-        // Writing to a string does not fail.
-        let _ = write!(
-            text,
-            r#"<text y="{:.1}" font-size="{high:.0}" text-anchor="middle" fill="{}">{}</text>"#,
-            high * 0.35 + down,
-            mark.text(),
-            size.cameras
+        let fill = format!(r#"fill="{}""#, mark.text());
+        write(high * 0.35 + down, high, &fill, &number);
+        if radius > 36.0 {
+            write(
+                high * 0.35 + down + 14.0,
+                11.0,
+                &fill,
+                &counted(size.cameras, "camera"),
+            );
+        }
+    } else if picture.larger() <= 2 * MARKS {
+        write(
+            radius * 1.25 + 9.0,
+            9.0,
+            r##"class="ink-text" fill="#444""##,
+            &number,
         );
     }
     let _ = writeln!(

@@ -24,25 +24,40 @@ struct Program {
     version: &'static str,
 }
 
-/// A line with its program.
+/// The format of the records; another one is not read as this.
+const FORMAT: u32 = 1;
+
+/// A line with what it is.
 #[derive(Serialize)]
 struct Signed<'a, T> {
+    kind: &'static str,
+    format: u32,
     program: Program,
     #[serde(flatten)]
     line: &'a T,
 }
 
-/// Writes an object as one line of JSON, with the program and its version: every `--json` is of
+/// Writes a record of this kind as one line of JSON, with the program and its version: every `--json` is of
 /// such lines. Their schema is docs/report.schema.json.
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write_line(out: &mut impl Write, line: &impl Serialize) -> io::Result<()> {
+pub fn write_line(
+    out: &mut impl Write,
+    kind: &'static str,
+    line: &impl Serialize,
+) -> io::Result<()> {
     let program = Program {
         name: "verify",
         version: env!("CARGO_PKG_VERSION"),
     };
-    serde_json::to_writer(&mut *out, &Signed { program, line })?;
+    let signed = Signed {
+        kind,
+        format: FORMAT,
+        program,
+        line,
+    };
+    serde_json::to_writer(&mut *out, &signed)?;
     out.write_all(b"\n")
 }
 
@@ -74,6 +89,7 @@ struct Line<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     at_cameras: Option<HereLine>,
     mode: &'static str,
+    seed: u64,
     seconds: f64,
     #[serde(flatten)]
     advice: &'a Advice,
@@ -155,14 +171,13 @@ pub(super) struct AnswerLine {
     rank_strength: &'static str,
     components: Vec<ComponentLine>,
     components_strength: &'static str,
+    /// The prime of the residues that it rests on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    prime: Option<u64>,
 }
 
 impl AnswerLine {
-    pub(super) fn new(
-        input: &NamedGraph,
-        verdict: &Verdict,
-        components: Vec<ComponentLine>,
-    ) -> Self {
+    pub(super) fn new(input: &NamedGraph, verdict: &Verdict, are_listed: bool) -> Self {
         let strength = verdict.value_claim().strength;
         Self {
             verdict: verdict.value.name(),
@@ -174,15 +189,16 @@ impl AnswerLine {
             rank: verdict.rank,
             rank_required: verdict.required,
             rank_strength: verdict.rank_claim().strength.name(),
-            components,
+            components: components(input, verdict, are_listed),
             components_strength: verdict.components_claim().strength.name(),
+            prime: verdict.prime(),
         }
     }
 }
 
 impl From<&Report<'_>> for AnswerLine {
     fn from(report: &Report) -> Self {
-        Self::new(report.input, report.verdict, components(report))
+        Self::new(report.input, report.verdict, report.list_components)
     }
 }
 
@@ -240,19 +256,6 @@ pub(super) struct ComponentLine {
     solutions: Option<SolutionsLine>,
 }
 
-impl From<&Component> for ComponentLine {
-    fn from(component: &Component) -> Self {
-        Self {
-            nodes: component.node_count(),
-            edges: component.edge_count(),
-            cameras: None,
-            points: None,
-            labels: None,
-            solutions: None,
-        }
-    }
-}
-
 /// The record of a graph that has no answer, and why.
 ///
 /// # Errors
@@ -268,7 +271,7 @@ pub fn write_failed(out: &mut impl Write, name: &str, error: &str) -> io::Result
         error: &'a str,
     }
     let graph = Name { name };
-    write_line(out, &Failed { graph, error })
+    write_line(out, "failed", &Failed { graph, error })
 }
 
 /// Writes the report as one line.
@@ -299,51 +302,37 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
             .as_ref()
             .map(|here| here.line(report.list_components)),
         mode: if report.rational { "rational" } else { "prime" },
+        seed: verdict.seed,
         seconds: report.time.as_secs_f64(),
         advice: report.advice,
         proof: report.proof,
     };
-    write_line(out, &line)
+    write_line(out, "report", &line)
 }
 
-/// The components; of a camera-point graph with cameras and points, and behind them every camera
-/// that sees no point.
-pub(super) fn components(report: &Report) -> Vec<ComponentLine> {
-    let labels = |nodes: Vec<u32>| -> Vec<String> {
-        let label = |v| report.input.labels.label(v).into_owned();
-        nodes.into_iter().map(label).collect()
+/// The components, with their members if these are listed; of a camera-point graph with cameras and points.
+pub(super) fn components(
+    input: &NamedGraph,
+    verdict: &Verdict,
+    are_listed: bool,
+) -> Vec<ComponentLine> {
+    let line = |component: &Component| {
+        let members = input
+            .cameras
+            .map(|cameras| tracks::members(component, cameras));
+        let labels = are_listed.then(|| {
+            let cameras = members.as_ref().map(|(cameras, _)| cameras.clone());
+            let nodes = cameras.unwrap_or_else(|| component.nodes()).into_iter();
+            nodes.map(|v| input.labels.label(v).into_owned()).collect()
+        });
+        ComponentLine {
+            nodes: component.node_count(),
+            edges: component.edge_count(),
+            cameras: members.as_ref().map(|(cameras, _)| cameras.len()),
+            points: members.map(|(_, points)| points),
+            labels,
+            solutions: several(verdict, component).map(SolutionsLine::from),
+        }
     };
-    let listed = report.list_components;
-    let components = report.verdict.components.iter();
-    let Some(cameras) = report.input.cameras else {
-        let line = |component: &Component| ComponentLine {
-            labels: listed.then(|| labels(component.nodes())),
-            solutions: several(report.verdict, component).map(SolutionsLine::from),
-            ..ComponentLine::from(component)
-        };
-        return components.map(line).collect();
-    };
-    let alone = tracks::alone(report, cameras);
-    let alone = alone.into_iter().map(|camera| ComponentLine {
-        nodes: 1,
-        edges: 0,
-        cameras: Some(1),
-        points: Some(0),
-        labels: listed.then(|| labels(vec![camera])),
-        solutions: None,
-    });
-    components
-        .map(|component| {
-            let (nodes, points) = tracks::members(component, cameras);
-            ComponentLine {
-                nodes: component.node_count(),
-                edges: component.edge_count(),
-                cameras: Some(nodes.len()),
-                points: Some(points),
-                labels: listed.then(|| labels(nodes)),
-                solutions: None,
-            }
-        })
-        .chain(alone)
-        .collect()
+    verdict.components.iter().map(line).collect()
 }

@@ -120,7 +120,7 @@ impl ListReport<'_> {
             lists: self.lists,
             seconds: self.time.as_secs_f64(),
         };
-        write_line(out, &line)
+        write_line(out, "lists", &line)
     }
 }
 

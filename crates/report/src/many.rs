@@ -1,6 +1,6 @@
 //! Many graphs: a row each and a summary, in the form of the paper's Table 3.
 
-use super::text::{seconds, strength, value};
+use super::text::{seconds, strength};
 use super::{Report, counted};
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -44,8 +44,8 @@ pub struct Table {
     counted: bool,
     graphs: usize,
     failed: usize,
-    /// Of each verdict how many, in the order of [`Value::ALL`], and its words.
-    counts: [(usize, &'static str); 3],
+    /// Of each verdict how many, in the order of [`Value::ALL`].
+    counts: [usize; 3],
     components: usize,
     time: Duration,
 }
@@ -70,7 +70,7 @@ impl Table {
             counted,
             graphs: 0,
             failed: 0,
-            counts: Value::ALL.map(|value| (0, value.name())),
+            counts: [0; 3],
             components: 0,
             time: Duration::ZERO,
         };
@@ -101,7 +101,7 @@ impl Table {
     pub fn row(&mut self, out: &mut impl Write, report: &Report) -> io::Result<()> {
         let (graph, verdict) = (&report.input.graph, report.verdict);
         let (nodes, edges) = (graph.nodes(), graph.edges().len());
-        let words = value(verdict.value, verdict.model);
+        let words = verdict.value.name();
         let components = verdict.components.len();
         let strength = strength(verdict.value_claim().strength);
         let percent = density(nodes, edges);
@@ -158,9 +158,7 @@ impl Table {
         self.components += components;
         self.time += report.time;
         for (count, known) in self.counts.iter_mut().zip(Value::ALL) {
-            if verdict.value == known {
-                *count = (count.0 + 1, words);
-            }
+            *count += usize::from(verdict.value == known);
         }
         Ok(())
     }
@@ -209,9 +207,10 @@ impl Table {
     /// # Errors
     /// Those of the writer.
     pub fn end(&self, out: &mut impl Write) -> io::Result<()> {
-        let some = self.counts.iter().filter(|(count, _)| *count > 0);
+        let some = self.counts.iter().zip(Value::ALL);
         let some: Vec<String> = some
-            .map(|(count, words)| format!("{count} {words}"))
+            .filter(|(count, _)| **count > 0)
+            .map(|(count, value)| format!("{count} {}", value.name()))
             .collect();
         let failed = match self.failed {
             0 => String::new(),

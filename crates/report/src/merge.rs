@@ -259,7 +259,7 @@ impl MergeReport<'_> {
             next: [Next { command, purpose }],
             seconds: self.time.as_secs_f64(),
         };
-        write_line(out, &line)
+        write_line(out, "merge", &line)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Every camera model side by side, for people and for programs.
 
-use super::json::{AnswerLine, ComponentLine, GraphLine, parts, write_line};
+use super::json::{AnswerLine, GraphLine, parts, write_line};
 use super::read::ReadLine;
 use super::{size_with_parts, text};
 use serde::Serialize;
@@ -106,7 +106,7 @@ pub fn text(
     for verdict in verdicts {
         let (rank, required) = (verdict.rank, verdict.required);
         let components = super::counted(verdict.components.len(), "component");
-        let answer = text::value(verdict.value, verdict.model);
+        let answer = verdict.value.name();
         let claims = [
             verdict.value_claim().strength,
             verdict.rank_claim().strength,
@@ -145,6 +145,7 @@ struct Line<'a> {
     parts: Option<usize>,
     read: ReadLine<'a>,
     notes: &'a [String],
+    seed: u64,
     models: Vec<ModelLine>,
     changes: Vec<ChangeLine>,
 }
@@ -158,10 +159,9 @@ struct ModelLine {
 
 impl ModelLine {
     fn new(input: &NamedGraph, verdict: &Verdict) -> Self {
-        let sizes = verdict.components.iter().map(ComponentLine::from);
         Self {
             model: verdict.model.name(),
-            answer: AnswerLine::new(input, verdict, sizes.collect()),
+            answer: AnswerLine::new(input, verdict, false),
         }
     }
 }
@@ -203,11 +203,12 @@ pub fn json(
         parts: parts(verdicts[0]),
         read: ReadLine::from(&input.read),
         notes: &input.notes,
+        seed: verdicts[0].seed,
         models: verdicts
             .iter()
             .map(|verdict| ModelLine::new(input, verdict))
             .collect(),
         changes: changes.collect(),
     };
-    write_line(out, &line)
+    write_line(out, "models", &line)
 }

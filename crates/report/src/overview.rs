@@ -689,9 +689,10 @@ impl Overview<'_> {
             no_model: self.no_model(),
             follows: self.follows(),
             next: &self.next,
+            seed: decided.map(|report| report.verdict.seed),
             seconds: self.time.as_secs_f64(),
         };
-        write_line(out, &line)
+        write_line(out, "overview", &line)
     }
 }
 
@@ -731,6 +732,7 @@ struct Line<'a> {
     no_model: Option<String>,
     follows: Follows,
     next: &'a [Next],
+    seed: Option<u64>,
     seconds: f64,
 }
 

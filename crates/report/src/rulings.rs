@@ -1,7 +1,6 @@
 //! Rulings on claims.
 
 use super::json::{GraphLine, write_line};
-use super::text;
 use serde::Serialize;
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -38,7 +37,7 @@ pub fn text(out: &mut impl Write, ruled: &Ruled) -> io::Result<()> {
         out,
         "  {}: {} ({}), components {}, rank {}",
         input.name,
-        text::value(exact.value, exact.model),
+        exact.value.name(),
         exact.value_claim().strength.name(),
         exact.components.len(),
         exact.rank
@@ -92,5 +91,5 @@ pub fn json(out: &mut impl Write, ruled: &Ruled) -> io::Result<()> {
             .as_ref()
             .map(|path| path.display().to_string()),
     };
-    write_line(out, &line)
+    write_line(out, "ruling", &line)
 }

@@ -172,9 +172,10 @@ impl SplitReport<'_> {
             split: self.split,
             whole: self.is_whole(),
             why: self.why(),
+            seed: report.verdict.seed,
             seconds: report.time.as_secs_f64(),
         };
-        write_line(out, &line)
+        write_line(out, "split", &line)
     }
 }
 
@@ -205,5 +206,6 @@ struct Line<'a> {
     split: &'a Split,
     whole: bool,
     why: String,
+    seed: u64,
     seconds: f64,
 }

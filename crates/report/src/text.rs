@@ -6,7 +6,6 @@ use viewcert::contract::Merge;
 use viewcert::decide::Strength;
 use viewcert::decide::evidence::{Evidence, Witness};
 use viewcert::decide::{Bound, Component, SolutionCount, Value, Verdict};
-use viewcert::geometry::model::Model;
 use viewcert::wording::printable;
 use viewcert_formats::NamedGraph;
 
@@ -119,16 +118,6 @@ pub(super) fn write_components(out: &mut impl Write, report: &Report) -> io::Res
     Ok(())
 }
 
-/// A verdict in two or three words, as in the glossary.
-pub fn value(value: Value, model: Model) -> &'static str {
-    match (value, model) {
-        (Value::Solvable, _) => "solvable",
-        (Value::FiniteSolvable, _) => "finite solvable",
-        (Value::NotFiniteSolvable, Model::Projective) => "not finite solvable",
-        (Value::NotFiniteSolvable, Model::Calibrated | Model::Affine) => "not solvable",
-    }
-}
-
 /// The verdict and how strong it is.
 pub(super) fn answer(report: &Report) -> String {
     let verdict = report.verdict;
@@ -150,7 +139,7 @@ pub(super) fn answer(report: &Report) -> String {
         condition(report.input, verdict).map_or_else(String::new, |words| format!(" {words}"));
     format!(
         "{}: {means}{condition} ({})",
-        value(verdict.value, verdict.model),
+        verdict.value.name(),
         strength(verdict.value_claim().strength)
     )
 }

@@ -47,17 +47,6 @@ pub fn members(component: &Component, cameras: u32) -> (Vec<u32>, usize) {
     (nodes, points)
 }
 
-/// The cameras that see no point: each is a component of its own. O(cameras + edges).
-pub fn alone(report: &Report, cameras: u32) -> Vec<u32> {
-    let mut seeing = vec![false; cameras as usize];
-    for &(camera, _) in report.input.graph.edges() {
-        seeing[camera as usize] = true;
-    }
-    (0..cameras)
-        .filter(|&camera| !seeing[camera as usize])
-        .collect()
-}
-
 /// Writes what the tracks are and what the model takes for known.
 ///
 /// # Errors
@@ -97,7 +86,6 @@ pub fn write_components(
     let components = report.verdict.components.iter();
     let parts = components.map(|component| members(component, cameras));
     let (parts, single): (Vec<_>, Vec<_>) = parts.partition(|(nodes, _)| nodes.len() > 1);
-    let alone = alone(report, cameras);
     let mut text: Vec<String> = parts
         .iter()
         .take(SHOWN)
@@ -120,21 +108,23 @@ pub fn write_components(
                 },
         );
     }
-    if !alone.is_empty() {
-        text.push(counted(alone.len(), "camera") + " without a point");
-    }
-    let total = parts.len() + single.len() + alone.len();
+    let total = parts.len() + single.len();
     let colon = if text.is_empty() { "" } else { ": " };
+    let facts = report.input.tracks.as_ref();
+    let alone = facts.map_or(0, |facts| facts.cameras_without_point);
+    let in_none = match alone {
+        0 => String::new(),
+        _ => format!("; in none: {} without a point", counted(alone, "camera")),
+    };
     writeln!(
         out,
-        "  components  {total} ({strength}){colon}{}",
+        "  components  {total} ({strength}){colon}{}{in_none}",
         text.join(", ")
     )?;
     if !report.list_components {
         return Ok(());
     }
-    let alone = alone.iter().map(|&camera| (vec![camera], 0));
-    for (k, (nodes, points)) in (1..).zip(parts.into_iter().chain(alone)) {
+    for (k, (nodes, points)) in (1..).zip(parts) {
         write!(out, "  component {k} ({}):", counted(points, "point"))?;
         for node in nodes {
             write!(out, " {}", report.input.labels.display(node))?;

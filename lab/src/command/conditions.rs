@@ -39,6 +39,6 @@ pub fn run(session: &Session, arguments: &ConditionArguments) -> Result<u8> {
     };
     let code = arguments
         .input
-        .for_each(session, &arguments.graphs, &|_| None, &mut out, each)?;
+        .for_each(session, (&arguments.graphs, arguments.json), &|_| None, &mut out, each)?;
     Ok(code)
 }

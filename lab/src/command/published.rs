@@ -30,7 +30,7 @@ pub fn run(session: &Session, arguments: &Arguments) -> Result<u8> {
     let mut out = BufWriter::new(std::io::stdout().lock());
     let each = |out: &mut _, input: &NamedGraph, _| one(session, arguments, input, out);
     let (input, graphs) = (&arguments.input, &arguments.graphs);
-    input.for_each(session, graphs, &|_| None, &mut out, each)
+    input.for_each(session, (graphs, false), &|_| None, &mut out, each)
 }
 
 fn one(

@@ -72,7 +72,7 @@ pub fn run(session: &Session, arguments: &Arguments) -> Result<u8> {
     };
     let code = arguments.input.for_each(
         session,
-        &arguments.graphs,
+        (&arguments.graphs, false),
         &|_| None,
         &mut std::io::sink(),
         each,

@@ -208,7 +208,7 @@ pub fn json(out: &mut impl Write, input: &NamedGraph, found: &Comparison) -> io:
         affine_f: found.affine_f,
         formulations: found.lines.iter().map(JsonLine::from).collect(),
     };
-    write_line(out, &line)
+    write_line(out, "comparison", &line)
 }
 
 /// Rows and columns as a chart, as in the paper's figure of the sizes.

@@ -404,7 +404,7 @@ class Verdict(Generic[N]):
         """The maximal parts that their pairs determine, as sets of nodes, by falling number of
         pairs. Two share at most one node.
 
-        Of a camera-point graph: their cameras; at the end every camera that sees no point.
+        Of a camera-point graph: their cameras. A camera that sees no point is in none.
         """
         return list(self._parts_found())
 
@@ -420,15 +420,12 @@ class Verdict(Generic[N]):
         numbers = members.tolist()
         found, start = [], 0
         cameras = self._graph.cameras
-        seen = set(numbers) if cameras is not None else set()
         for end in ends.tolist():
             part = numbers[start:end]
             if cameras is not None:
                 part = [number for number in part if number < cameras]
             found.append(frozenset([nodes[number] for number in part]))
             start = end
-        alone = (number for number in range(cameras or 0) if number not in seen)
-        found.extend(frozenset([nodes[number]]) for number in alone)
         return found
 
     def pairs_of(self, component: int) -> List[Tuple[N, N]]:
@@ -451,9 +448,6 @@ class Verdict(Generic[N]):
         component = whole("component", component, -(2**31), 2**31 - 1)
         if not 0 <= component < len(self._parts_found()):
             raise Absent(f"no component {component}: there are {len(self._parts_found())}")
-        if component >= self._native.component_count():
-            # A camera that sees no point.
-            return np.empty((0, 2), dtype=np.uint32)
         members, ends = self._native.components()
         first = int(ends[component - 1]) if component else 0
         return _native.pairs_among(self._graph._native, members[first : int(ends[component])])

@@ -68,6 +68,44 @@ pub enum Evidence {
     },
 }
 
+impl Evidence {
+    /// The prime of its residues, of several the smallest.
+    fn prime(&self) -> Option<u64> {
+        match self {
+            Self::Minor { draw, .. }
+            | Self::PlaneFlow { draw, .. }
+            | Self::PlaneMinor { draw, .. }
+            | Self::Kernel { draw, .. } => Some(draw.prime),
+            Self::IntegerMinor(minor) => match minor.witness {
+                Witness::Prime(prime) => Some(prime),
+                Witness::Determinant(_) => None,
+            },
+            Self::Upper(Upper { by, .. }) => match by {
+                Bound::Overlap(overlap) => {
+                    let pieces = overlap.shared.pieces.iter();
+                    pieces
+                        .filter_map(|piece| smallest_prime(&piece.evidence))
+                        .min()
+                }
+                Bound::Counting(_) => None,
+            },
+            Self::Classes(classes) => {
+                let of_class = |class: &Class| match &class.kind {
+                    ClassKind::Rigid(evidence) => smallest_prime(evidence),
+                    _ => class.pieces().iter().filter_map(PieceVerdict::prime).min(),
+                };
+                classes.iter().filter_map(of_class).min()
+            }
+            Self::Pinching { .. } | Self::Draws(_) => None,
+        }
+    }
+}
+
+/// The smallest prime of residues in some evidence.
+pub(super) fn smallest_prime(evidence: &[Evidence]) -> Option<u64> {
+    evidence.iter().filter_map(Evidence::prime).min()
+}
+
 /// An upper bound on the rank of a piece.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Upper {
@@ -323,6 +361,13 @@ pub struct PieceVerdict {
     pub rank_strength: Strength,
     /// Strength of the components being maximal.
     pub components_strength: Strength,
+}
+
+impl PieceVerdict {
+    /// The smallest prime of residues that it rests on.
+    pub(super) fn prime(&self) -> Option<u64> {
+        smallest_prime(&self.evidence)
+    }
 }
 
 /// A non-zero minor of the integer J_P, whose rows are divided by their content.

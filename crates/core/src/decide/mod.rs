@@ -199,6 +199,7 @@ impl Found<'_> {
             known_parts: self.known_parts.clone(),
             displacements: self.displacements.clone(),
             sha256,
+            seed: self.options.seed,
             value: if is_one { Value::Solvable } else { value },
             value_strength,
             solutions,

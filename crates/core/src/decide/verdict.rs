@@ -3,7 +3,7 @@
 use crate::contract::Contraction;
 use crate::contract::piece::Members;
 use crate::decide::claim::{Claim, Strength};
-use crate::decide::evidence::{Evidence, PieceVerdict};
+use crate::decide::evidence::{Evidence, PieceVerdict, smallest_prime};
 use crate::decide::solution_count::SolutionCount;
 use crate::geometry::model::Model;
 use crate::graph::{Displacements, Graph, KnownParts};
@@ -107,6 +107,8 @@ pub struct Verdict {
     pub displacements: Displacements,
     /// SHA-256 of the graph's canonical form.
     pub sha256: [u8; 32],
+    /// The seed of all draws.
+    pub seed: u64,
     /// The answer; [`value_claim`](Self::value_claim) says how strong it is.
     pub value: Value,
     /// How many solutions there are; `None` if infinitely many.
@@ -132,6 +134,13 @@ pub struct Verdict {
 }
 
 impl Verdict {
+    /// The prime of the residues that the answer rests on, of several the smallest; `None` if contraction and
+    /// counting decide.
+    pub fn prime(&self) -> Option<u64> {
+        let pieces = self.pieces.iter().filter_map(PieceVerdict::prime);
+        pieces.chain(smallest_prime(&self.by_rank)).min()
+    }
+
     /// The answer, and how strong it is.
     pub fn value_claim(&self) -> Claim<Value> {
         Claim {

@@ -49,14 +49,15 @@ pub(super) enum Step {
 }
 
 impl Proof {
-    /// What the rank is proved to be at least; 0 if nothing is proved.
+    /// What the rank of a verdict is proved to be at least; 0 if nothing is proved. Affine it is four times that
+    /// of R, which the text states.
     pub fn lower(&self) -> usize {
-        self.lower
+        self.model.times() * self.lower
     }
 
-    /// What the rank is proved to be at most.
+    /// What it is proved to be at most.
     pub fn upper(&self) -> usize {
-        self.upper
+        self.model.times() * self.upper
     }
 
     /// How many components there are, if it is proved which they are.

@@ -5,6 +5,8 @@ use std::fmt;
 /// A kind of work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Step {
+    /// All graphs of a size.
+    Enumeration,
     /// Contraction of the whole graph to bodies.
     Contraction,
     /// The elimination of the paper's whole matrix.
@@ -38,6 +40,7 @@ impl fmt::Display for Stage {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let cameras = self.cameras;
         let step = match self.step {
+            Step::Enumeration => return write!(f, "enumeration of graphs with {cameras} nodes"),
             Step::Contraction => return write!(f, "contraction of {cameras} cameras"),
             Step::WholeMatrix => "whole Jacobian",
             Step::Flows => "flows",

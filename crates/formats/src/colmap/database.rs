@@ -28,21 +28,15 @@ pub struct Database {
     matching: Matching,
     facts: DatabaseFacts,
     /// What is said besides of every graph.
-    notes: Vec<String>,
+    note: Option<String>,
 }
 
 impl Database {
-    /// Opens a database, which graphs and errors call `name`, and reads its images and pairs. `notes` are
-    /// said of every graph. O(images + pairs) and the sorting of both.
+    /// Opens a database, which graphs and errors call `name`, and reads its images and pairs. O(images + pairs) and the sorting of both.
     ///
     /// # Errors
     /// See [`DatabaseError`].
-    pub(crate) fn open(
-        name: &str,
-        path: &Path,
-        options: &ReadOptions,
-        notes: Vec<String>,
-    ) -> Result<Self, ReadError> {
+    pub(crate) fn open(name: &str, path: &Path, options: &ReadOptions) -> Result<Self, ReadError> {
         let read = || {
             let opened = Opened::new(path)?;
             let tables = Tables::read(&opened.connection, options)?;
@@ -65,7 +59,7 @@ impl Database {
                 opened,
                 tables,
                 pairs,
-                notes: without.into_iter().chain(notes).collect(),
+                note: without,
             })
         };
         read().map_err(|error| in_file(name, error))
@@ -254,7 +248,7 @@ impl Database {
         let notes = of_opening.chain(of_tables).chain(graph.notes);
         NamedGraph {
             name: self.name.clone(),
-            notes: notes.chain(self.notes.iter().cloned()).collect(),
+            notes: notes.chain(self.note.clone()).collect(),
             read: ReadAs::new("COLMAP database"),
             database: Some(Box::new(self.facts.clone())),
             ..graph

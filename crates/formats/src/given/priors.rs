@@ -108,7 +108,7 @@ fn notes(
         let [first, second] = [first, second].map(|v| graph.labels.label(v));
         let has = if again.len() == 1 { "has" } else { "have" };
         notes.push(format!(
-            "{} {has} the very position of another one, first {second} that of {first}: 'not solvable' \
+            "{} {has} the very position of another one, first {second} that of {first}: 'not-finite-solvable' \
              is proved all the same, 'solvable' supposes that they are at different places",
             counted(again.len(), "camera")
         ));

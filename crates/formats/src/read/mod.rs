@@ -328,19 +328,14 @@ fn of_sampled(path: Option<&Path>, name: String, sampled: Sampled, options: Read
         Some(Format::Document(document)) => Ok(Some(Kind::Document(document))),
         None => recognise::kind(&sampled.head, sampled.whole).map(Some),
     };
-    let unused = ignored(&options, &kind);
+    let kind = kind.and_then(|kind| ensure_used(&options, kind).map(|()| kind));
     let one = match kind {
         Ok(Some(Kind::Lines { encoding, guessed })) => {
             let lines = Lines::new(name, encoding, guessed, sampled.into_input());
-            return Box::new(lines.map(move |graph| {
-                graph.map(|mut graph| {
-                    graph.notes.extend_from_slice(&unused);
-                    graph
-                })
-            }));
+            return Box::new(lines);
         }
         Ok(Some(Kind::Sqlite)) => {
-            return Box::new(std::iter::once(database(path, &name, &options, unused)));
+            return Box::new(std::iter::once(database(path, &name, &options)));
         }
         Ok(Some(Kind::Matlab)) => all(sampled.into_input()).and_then(|bytes| {
             matlab::read_noting(&bytes, options.variable.as_deref(), &options.list)
@@ -356,14 +351,11 @@ fn of_sampled(path: Option<&Path>, name: String, sampled: Sampled, options: Read
         Err(problem) => Err(Place::Input.fault(problem)),
     };
     match one {
-        Ok(mut parsed) => {
-            parsed.notes.extend(unused);
-            Box::new(std::iter::once(Ok(NamedGraph {
-                read: parsed.read,
-                notes: parsed.notes,
-                ..NamedGraph::new(name, parsed.graph, parsed.labels)
-            })))
-        }
+        Ok(parsed) => Box::new(std::iter::once(Ok(NamedGraph {
+            read: parsed.read,
+            notes: parsed.notes,
+            ..NamedGraph::new(name, parsed.graph, parsed.labels)
+        }))),
         Err(fault) => failed(&name, fault),
     }
 }
@@ -384,53 +376,59 @@ fn list(sampled: Sampled, reading: Reading, options: &ListOptions) -> Result<Par
     })
 }
 
-/// Options that say nothing about a file of this kind, in words.
-fn ignored(options: &ReadOptions, kind: &Result<Option<Kind>, Problem>) -> Vec<String> {
-    let mut notes = Vec::new();
-    if options.variable.is_some() && !matches!(kind, Ok(Some(Kind::Matlab))) {
-        notes.push("--variable is ignored: this is no MATLAB file".to_owned());
-    }
+/// Refuses an option that says nothing about a file of this kind, or about tracks.
+fn ensure_used(options: &ReadOptions, kind: Option<Kind>) -> Result<(), Problem> {
+    let of_tracks = options.tracks.is_some();
     // Weights are read, and loops may be there.
-    let takes = match kind {
-        Ok(None | Some(Kind::Text | Kind::Matlab | Kind::MatrixMarket)) => [true; 2],
-        Ok(Some(Kind::Document(document))) => [document.has_weights(), true],
+    let [has_weights, has_loops] = match kind {
+        _ if of_tracks => [false; 2],
+        None | Some(Kind::Text | Kind::Matlab | Kind::MatrixMarket) => [true; 2],
+        Some(Kind::Document(document)) => [document.has_weights(), true],
         _ => [false; 2],
     };
-    let list = &options.list;
-    for (option, given, taken, why) in [
+    let (list, is_database) = (&options.list, kind == Some(Kind::Sqlite));
+    let no_database = "this is no COLMAP database";
+    let rules = [
+        (
+            "--format",
+            options.format.is_some() && of_tracks,
+            "tracks are known by their content",
+        ),
+        (
+            "--variable",
+            options.variable.is_some() && kind != Some(Kind::Matlab),
+            "this is no MATLAB file",
+        ),
         (
             "--columns",
-            list.columns.is_some(),
-            matches!(kind, Ok(None | Some(Kind::Text))),
+            list.columns.is_some() && (of_tracks || !matches!(kind, None | Some(Kind::Text))),
             "this is no list of pairs",
         ),
         (
             "--min-weight",
-            list.min_weight.is_some(),
-            takes[0],
+            list.min_weight.is_some() && !has_weights,
             "no weights are read from such a file",
         ),
         (
             "--skip-loops",
-            list.skip_loops,
-            takes[1],
+            list.skip_loops && !has_loops,
             "of such a file no pairs are left out by that",
         ),
-    ] {
-        if given && !taken {
-            notes.push(format!("{option} is ignored: {why}"));
-        }
+        (
+            "--pipeline",
+            options.pipeline.is_some() && !is_database,
+            no_database,
+        ),
+        (
+            "--min-inliers",
+            options.min_inliers.is_some() && !is_database,
+            no_database,
+        ),
+    ];
+    match rules.into_iter().find(|(_, is_unused, _)| *is_unused) {
+        Some((option, _, why)) => Err(Problem::Unused { option, why }),
+        None => Ok(()),
     }
-    if !matches!(kind, Ok(Some(Kind::Sqlite))) {
-        let given = [
-            ("--pipeline", options.pipeline.is_some()),
-            ("--min-inliers", options.min_inliers.is_some()),
-        ];
-        for (option, _) in given.iter().filter(|(_, given)| *given) {
-            notes.push(format!("{option} is ignored: this is no COLMAP database"));
-        }
-    }
-    notes
 }
 
 /// The database at a path, open to be read in several ways; nothing, if there is none or a format says
@@ -445,8 +443,10 @@ pub fn open_database(
     let path = path.as_ref();
     let is_meant = options.format.is_none() && colmap::is_database(path);
     is_meant.then(|| {
-        let unused = ignored(options, &Ok(Some(Kind::Sqlite)));
-        Database::open(&path.display().to_string(), path, options, unused)
+        let name = path.display().to_string();
+        ensure_used(options, Some(Kind::Sqlite))
+            .map_err(|problem| Place::Input.fault(problem).in_file(&name))?;
+        Database::open(&name, path, options)
     })
 }
 
@@ -455,7 +455,6 @@ fn database(
     path: Option<&Path>,
     name: &str,
     options: &ReadOptions,
-    unused: Vec<String>,
 ) -> Result<NamedGraph, ReadError> {
     let no_file = || {
         let fault = Place::Input.fault(DatabaseError::NoFile.into());
@@ -463,7 +462,7 @@ fn database(
     };
     // A pipe by its path, as /dev/stdin, was read already.
     let path = path.filter(|path| path.is_file()).ok_or_else(no_file)?;
-    let database = Database::open(name, path, options, unused)?;
+    let database = Database::open(name, path, options)?;
     let graph = match options.tracks {
         None => database.pairs(),
         Some(tracks) => database.tracks(tracks)?,
@@ -471,9 +470,6 @@ fn database(
     database.finish()?;
     Ok(graph)
 }
-
-/// Files of tracks are told by other means; no option for lists says anything about them.
-const TRACKS_KIND: Result<Option<Kind>, Problem> = Ok(Some(Kind::Compressed(Compression::Gzip)));
 
 /// The camera-point graph of an input.
 fn tracks_of(
@@ -483,13 +479,10 @@ fn tracks_of(
     options: &ReadOptions,
     tracks: TrackOptions,
 ) -> Result<NamedGraph, ReadError> {
-    let mut notes = ignored(options, &TRACKS_KIND);
-    if options.format.is_some() {
-        notes.push("--format is ignored: tracks are known by their content".to_owned());
-    }
     let (head, whole) = (sampled.head.clone(), sampled.whole);
-    let graph = tracks::read(&head, whole, path, sampled.into_input(), tracks);
-    tracks_called(name, graph, notes)
+    let read = || tracks::read(&head, whole, path, sampled.into_input(), tracks);
+    let used = ensure_used(options, None).map_err(|problem| Place::Input.fault(problem));
+    tracks_called(name, used.and_then(|()| read()))
 }
 
 /// What is in a folder.
@@ -507,11 +500,14 @@ fn folder(folder: &Path, options: &ReadOptions) -> Result<NamedGraph, ReadError>
     match options.tracks {
         None if tracks::has_no_points(folder) => {
             let graph = tracks::read_folder(folder, TrackOptions::default());
-            tracks_called(name, graph, Vec::new())
+            tracks_called(name, graph)
         }
         Some(tracks) => {
-            let notes = ignored(options, &TRACKS_KIND);
-            tracks_called(name, tracks::read_folder(folder, tracks), notes)
+            let used = ensure_used(options, None).map_err(|problem| Place::Input.fault(problem));
+            tracks_called(
+                name,
+                used.and_then(|()| tracks::read_folder(folder, tracks)),
+            )
         }
         None if is_model => Err(Place::Input.fault(Problem::Model).in_file(name)),
         None => {
@@ -546,14 +542,9 @@ fn inside(folder: &Path, depth: usize) -> Vec<String> {
 /// So many of them are named.
 const MOST_INSIDE: usize = 8;
 
-fn tracks_called(
-    name: &str,
-    graph: Result<NamedGraph, Fault>,
-    notes: Vec<String>,
-) -> Result<NamedGraph, ReadError> {
+fn tracks_called(name: &str, graph: Result<NamedGraph, Fault>) -> Result<NamedGraph, ReadError> {
     let mut graph = graph.map_err(|fault| fault.in_file(name))?;
     name.clone_into(&mut graph.name);
-    graph.notes.extend(notes);
     Ok(graph)
 }
 

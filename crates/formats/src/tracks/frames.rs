@@ -313,7 +313,7 @@ impl Frames {
         }
         if self.dependent > 0 {
             notes.push(format!(
-                "rigs: the sensors of {} are on one line, or more than four: 'not solvable' is proved for \
+                "rigs: the sensors of {} are on one line, or more than four: 'not-finite-solvable' is proved for \
                  them, 'solvable' supposes base lines in general position",
                 counted(self.dependent, "frame")
             ));

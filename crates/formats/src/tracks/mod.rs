@@ -58,6 +58,12 @@ pub(crate) fn read(
     let Some(kind) = kind(head, whole) else {
         return Err(Place::Input.fault(Problem::NoTracks));
     };
+    let is_model = matches!(kind, TrackFile::Colmap { .. });
+    if !options.rigs && !is_model {
+        let (option, why) = ("--no-rigs", "such a file holds no rigs");
+        return Err(Place::Input.fault(Problem::Unused { option, why }));
+    }
+    ensure_no_spread(options)?;
     let graph = match kind {
         TrackFile::Bal => bal::read(Words::new(input), options),
         TrackFile::Bundler => bundler::read(Words::new(input), options),
@@ -83,11 +89,21 @@ pub(crate) fn read(
     })
 }
 
+/// Refuses a spread of features, which databases alone hold.
+fn ensure_no_spread(options: TrackOptions) -> Result<(), Fault> {
+    let (option, why) = ("--max-spread", "this is no COLMAP database");
+    match options.max_spread == TrackOptions::default().max_spread {
+        true => Ok(()),
+        false => Err(Place::Input.fault(Problem::Unused { option, why })),
+    }
+}
+
 /// The camera-point graph of COLMAP's model in a folder.
 ///
 /// # Errors
 /// As of [`read`].
 pub(crate) fn read_folder(folder: &Path, options: TrackOptions) -> Result<NamedGraph, Fault> {
+    ensure_no_spread(options)?;
     let graph = model::folder(folder, options)?;
     Ok(NamedGraph {
         read: ReadAs::new(MODEL),

@@ -624,8 +624,6 @@
   const VALUES = {
     proof: "proved",
     "error-bound": "with an error bound",
-    "finite-solvable": "finite solvable",
-    "not-finite-solvable": report.model in APART ? "not solvable" : "not finite solvable",
   };
   const isEmpty = (value) =>
     value === null || value === undefined || (Array.isArray(value) && value.every(isEmpty));
