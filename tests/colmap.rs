@@ -715,7 +715,7 @@ fn tracks_of_a_database() {
         "dropped: 1 track with two features in one image, more than 10 pixels apart, or not known \
          where",
         "not counted: 15 tracks in fewer than 3 images (--min-views)",
-        "1 camera sees no track that counts: a component of its own",
+        "1 camera sees no track that counts: in no component",
     ] {
         assert!(notes(&line).contains(&note), "{line}");
     }

@@ -287,7 +287,11 @@ fn what_is_wrong_is_said() {
     ] {
         let run = verify(&[command, &one, "--given", &own]);
         assert_eq!(run.code, 2, "{command}");
-        assert!(run.err.contains("'--given'"), "{}", run.err);
+        assert!(
+            run.err.contains("--given is an option of `verify`"),
+            "{}",
+            run.err
+        );
     }
 }
 

@@ -322,7 +322,7 @@ struct ReportedComponent {
 }
 
 /// The members of a line of `verify --json`; see `report::json`.
-const REPORTED: [&str; 30] = [
+const REPORTED: [&str; 34] = [
     "graph",
     "parts",
     "read",

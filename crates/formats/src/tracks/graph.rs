@@ -300,9 +300,9 @@ impl TrackGraph {
         if facts.cameras_without_point > 0 {
             let cameras = counted(facts.cameras_without_point, "camera");
             let see = if facts.cameras_without_point == 1 {
-                "sees no track that counts: a component of its own"
+                "sees no track that counts: in no component"
             } else {
-                "see no track that counts: components of their own"
+                "see no track that counts: in no component"
             };
             notes.push(format!("{cameras} {see}"));
         }
