@@ -86,9 +86,13 @@ pub fn run(session: &Session, arguments: &CompareArguments) -> Result<u8> {
             Outcome::Disagree => NOT,
         })
     };
-    let code = arguments
-        .input
-        .for_each(session, (&arguments.graphs, arguments.json), &|_| None, &mut out, each)?;
+    let code = arguments.input.for_each(
+        session,
+        (&arguments.graphs, arguments.json),
+        &|_| None,
+        &mut out,
+        each,
+    )?;
     Ok(code)
 }
 
