@@ -1,24 +1,105 @@
-//! COLMAP's models, whole: to be written again with some of their images.
+//! COLMAP's models: a folder with cameras, images and points3D, as `.bin` or as `.txt`, and with rigs and
+//! frames if a COLMAP of version 3.12 or later wrote it.
 //!
-//! In: a folder with cameras, images and points3D, as `.bin` or as `.txt`, and with rigs and frames
-//! if a COLMAP of version 4 wrote it. Out: who sees what ([`Model`]), and on request a copy of it
+//! In: such a folder. Out: who sees what ([`Model`]), and on request a copy of it
 //! ([`Model::write`]) or of what some of its images see ([`Model::of_images`]). What is not read
 //! (poses, intrinsics, positions, colours) is carried over as it stands in the file, so that a
-//! copy has the same numbers to the last bit. Graphs of tracks are read elsewhere
-//! ([`tracks`](crate::tracks)); this module decides nothing.
+//! copy has the same numbers to the last bit. Graphs of tracks are made elsewhere
+//! ([`tracks`](crate::tracks)) of what is read here; this module decides nothing.
 
-mod binary;
-mod text;
+mod fields;
+mod records;
 
 use std::collections::{HashMap, HashSet};
 use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter};
 use std::path::Path;
 use viewcert::linalg::integer::Integer;
 use viewcert::linalg::rational::Rational;
 
 use crate::error::{Fault, Place, Problem, ReadError};
-use crate::tracks::{Frames, ModelEncoding as Encoding};
+use crate::tracks::Frames;
+
+pub(crate) use fields::{Encoding, Fields, fields};
+pub(crate) use records::{each_point, frames, images, known, part, rigs};
+
+/// A file of a model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Part {
+    Cameras,
+    Images,
+    Points,
+    Rigs,
+    Frames,
+}
+
+/// What the files are called in messages: binary and text.
+const TITLES: [[&str; 2]; 5] = [
+    ["COLMAP's cameras.bin", "COLMAP's cameras.txt"],
+    ["COLMAP's images.bin", "COLMAP's images.txt"],
+    ["COLMAP's points3D.bin", "COLMAP's points3D.txt"],
+    ["COLMAP's rigs.bin", "COLMAP's rigs.txt"],
+    ["COLMAP's frames.bin", "COLMAP's frames.txt"],
+];
+
+impl Part {
+    /// What the file is called in messages.
+    pub(crate) fn title(self, encoding: Encoding) -> &'static str {
+        TITLES[self as usize][encoding as usize]
+    }
+
+    /// The name of the file.
+    pub(crate) fn file(self, encoding: Encoding) -> &'static str {
+        &self.title(encoding)["COLMAP's ".len()..]
+    }
+
+    /// Whether the file is in a folder.
+    pub(crate) fn is_in(self, folder: &Path, encoding: Encoding) -> bool {
+        folder.join(self.file(encoding)).is_file()
+    }
+
+    /// Reads the file in a folder.
+    pub(crate) fn read<T>(
+        self,
+        folder: &Path,
+        encoding: Encoding,
+        read: impl FnOnce(&mut dyn Fields) -> Result<T, Fault>,
+    ) -> Result<T, Fault> {
+        let name = self.file(encoding);
+        let file = File::open(folder.join(name)).map_err(|error| Place::Input.fault(error.into()));
+        let found = file.and_then(|file| read(&mut *fields(file, encoding)));
+        found.map_err(|fault| within(name, fault))
+    }
+
+    /// The file as it is.
+    fn bytes(self, folder: &Path, encoding: Encoding) -> Result<Vec<u8>, Fault> {
+        let name = self.file(encoding);
+        let bytes = std::fs::read(folder.join(name));
+        bytes.map_err(|error| within(name, Place::Input.fault(error.into())))
+    }
+}
+
+/// A fault in one of the files of a folder.
+fn within(file: &str, fault: Fault) -> Fault {
+    Place::Input.fault(Problem::Within {
+        part: format!("{file}{}", fault.place),
+        problem: Box::new(fault.problem),
+    })
+}
+
+/// How the model in a folder is written, if there is one; `.bin` goes first, as in COLMAP.
+pub(crate) fn encoding_in(folder: &Path) -> Option<Encoding> {
+    let there = |&encoding: &_| Part::Points.is_in(folder, encoding);
+    [Encoding::Binary, Encoding::Text].into_iter().find(there)
+}
+
+/// Whether there is a model in a folder, and no point in it. O(bytes) of the comments.
+pub(crate) fn has_no_points(folder: &Path) -> bool {
+    encoding_in(folder).is_some_and(|encoding| {
+        let any = Part::Points.read(folder, encoding, |fields| fields.record());
+        matches!(any, Ok(false))
+    })
+}
 
 /// A model: who sees what, and everything else as it was written.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -48,49 +129,51 @@ pub struct Image {
     /// For every feature the point of the model that it is a view of, if it is one.
     pub points: Vec<Option<u64>>,
     /// Pose and camera, as in the file.
-    pose: Box<[u8]>,
+    pose: Vec<u8>,
     /// The features' places, as in the file, one after another: of so many bytes in a binary file,
     /// with a line feed behind each in a text file.
-    places: Box<[u8]>,
+    places: Vec<u8>,
 }
 
 /// A point of a model.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Point {
     /// Its number in the model.
     pub id: u64,
     /// Its views: the number of an image, and that of a feature there.
     pub track: Vec<(u32, u32)>,
     /// Position and colour, as in the file.
-    place: Box<[u8]>,
+    place: Vec<u8>,
     /// The mean error over the track, as in the file; nothing if this is another track.
-    error: Option<Box<[u8]>>,
+    error: Option<Vec<u8>>,
 }
 
 /// A frame: what the sensors of a rig took at one time.
 #[derive(Clone, Debug, PartialEq, Eq)]
-struct Frame {
-    /// Numbers of frame and rig, and the pose, as in the file.
-    head: Box<[u8]>,
+pub(crate) struct Frame {
+    id: u32,
+    rig: u32,
+    /// As in the file.
+    pose: Vec<u8>,
     data: Vec<Datum>,
 }
 
 /// What one sensor took.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Datum {
-    /// The sensor, as in the file.
-    sensor: Box<[u8]>,
-    /// The number of an image, if the sensor is a camera.
-    id: u64,
-    is_image: bool,
+    /// The type of the sensor, as in the file.
+    kind: Vec<u8>,
+    sensor: u32,
+    id: i64,
 }
 
-/// A file of a model, and its name without extension.
-const CAMERAS: &str = "cameras";
-const RIGS: &str = "rigs";
-const FRAMES: &str = "frames";
-const IMAGES: &str = "images";
-const POINTS: &str = "points3D";
+impl Datum {
+    /// The number of an image, if the sensor is a camera.
+    fn image(&self) -> Option<u32> {
+        let id = u32::try_from(self.id).ok();
+        id.filter(|_| records::is_camera(&self.kind))
+    }
+}
 
 impl Model {
     /// Reads the model in a folder; `.bin` goes before `.txt`, as in COLMAP. Linear in the bytes,
@@ -104,53 +187,40 @@ impl Model {
     }
 
     fn read_files(folder: &Path) -> Result<Self, Fault> {
-        let Some(encoding) = crate::tracks::encoding_in(folder) else {
+        let there = |part: Part, encoding| part.is_in(folder, encoding);
+        let whole = |&encoding: &_| there(Part::Cameras, encoding) && there(Part::Images, encoding);
+        let Some(encoding) = encoding_in(folder).filter(whole) else {
             return Err(Place::Input.fault(Problem::NoModel));
         };
-        let file = |stem: &str| file_name(stem, encoding);
-        let there = |stem: &str| folder.join(file(stem)).is_file();
-        if !there(CAMERAS) || !there(IMAGES) {
-            return Err(Place::Input.fault(Problem::NoModel));
-        }
-        let bytes = |stem: &str| {
-            let read = std::fs::read(folder.join(file(stem)));
-            read.map_err(|error| within(&file(stem), Place::Input.fault(error.into())))
+        let images = Part::Images.read(folder, encoding, |fields| images(fields, true))?;
+        let points = Part::Points.read(folder, encoding, |fields| {
+            let mut points = Vec::new();
+            each_point(fields, |point| points.push(point.clone()))?;
+            Ok(points)
+        })?;
+        let frames = match there(Part::Frames, encoding) {
+            true => Some(Part::Frames.read(folder, encoding, frames)?),
+            false => None,
         };
-        let inside = |stem: &'static str| move |fault| within(&file_name(stem, encoding), fault);
-        let of_images = bytes(IMAGES)?;
-        let images = match encoding {
-            Encoding::Binary => binary::images(&of_images),
-            Encoding::Text => text::images(&of_images),
-        };
-        let images = images.map_err(inside(IMAGES))?;
-        let of_points = bytes(POINTS)?;
-        let points = match encoding {
-            Encoding::Binary => binary::points(&of_points),
-            Encoding::Text => text::points(&of_points),
-        };
-        let points = points.map_err(inside(POINTS))?;
-        let frames = if there(FRAMES) {
-            let of_frames = bytes(FRAMES)?;
-            let frames = match encoding {
-                Encoding::Binary => binary::frames(&of_frames),
-                Encoding::Text => text::frames(&of_frames),
-            };
-            Some(frames.map_err(inside(FRAMES))?)
-        } else {
-            None
-        };
-        let rigs = there(RIGS).then(|| bytes(RIGS)).transpose()?;
-        let names: Vec<Box<str>> = images.iter().map(|image| image.name.clone()).collect();
-        let places = images.iter().map(|image| image.id).zip(0..).collect();
-        let model = Self {
-            known: crate::tracks::frames_in(folder, encoding, &names, &places)?,
+        let mut model = Self {
+            known: Frames::default(),
             encoding,
-            cameras: bytes(CAMERAS)?,
-            rigs,
+            cameras: Part::Cameras.bytes(folder, encoding)?,
+            rigs: None,
             frames,
             images,
             points,
         };
+        if there(Part::Rigs, encoding) {
+            model.rigs = Some(Part::Rigs.bytes(folder, encoding)?);
+            let rigs = Part::Rigs.read(folder, encoding, rigs)?;
+            if let Some(frames) = &model.frames {
+                let images = &model.images;
+                let names: Vec<_> = images.iter().map(|image| image.name.clone()).collect();
+                let places = images.iter().map(|image| image.id).zip(0..).collect();
+                model.known = known(&rigs, frames, &names, &places)?;
+            }
+        }
         model.check()?;
         Ok(model)
     }
@@ -223,32 +293,17 @@ impl Model {
     /// # Errors
     /// Those of the file system.
     pub fn write(&self, folder: &Path) -> io::Result<()> {
-        let create = |stem| File::create(folder.join(file_name(stem, self.encoding)));
-        create(CAMERAS)?.write_all(&self.cameras)?;
+        let encoding = self.encoding;
+        let path = |part: Part| folder.join(part.file(encoding));
+        let create = |part| File::create(path(part)).map(BufWriter::new);
+        std::fs::write(path(Part::Cameras), &self.cameras)?;
         if let Some(rigs) = &self.rigs {
-            create(RIGS)?.write_all(rigs)?;
+            std::fs::write(path(Part::Rigs), rigs)?;
         }
-        let mut images = BufWriter::new(create(IMAGES)?);
-        let mut points = BufWriter::new(create(POINTS)?);
-        match self.encoding {
-            Encoding::Binary => {
-                binary::write_images(&mut images, &self.images)?;
-                binary::write_points(&mut points, &self.points)?;
-            }
-            Encoding::Text => {
-                text::write_images(&mut images, &self.images)?;
-                text::write_points(&mut points, &self.points)?;
-            }
-        }
-        images.flush()?;
-        points.flush()?;
-        if let Some(all) = &self.frames {
-            let mut frames = BufWriter::new(create(FRAMES)?);
-            match self.encoding {
-                Encoding::Binary => binary::write_frames(&mut frames, all)?,
-                Encoding::Text => text::write_frames(&mut frames, all)?,
-            }
-            frames.flush()?;
+        records::write_images(create(Part::Images)?, encoding, &self.images)?;
+        records::write_points(create(Part::Points)?, encoding, &self.points)?;
+        if let Some(frames) = &self.frames {
+            records::write_frames(create(Part::Frames)?, encoding, frames)?;
         }
         Ok(())
     }
@@ -293,9 +348,9 @@ impl Model {
     pub fn measured_poses(&self) -> Result<Vec<[f64; 7]>, String> {
         let is_pose = |pose: &[f64; 7]| pose[..4].iter().any(|&x| x != 0.0);
         let image = |image: &Image| {
-            let pose = self.numbers(&image.pose).filter(is_pose);
+            let pose = numbers(self.encoding, &image.pose).filter(is_pose);
             pose.ok_or_else(|| {
-                let (file, name) = (file_name(IMAGES, self.encoding), &image.name);
+                let (file, name) = (Part::Images.file(self.encoding), &image.name);
                 format!(
                     "{file}: the pose of image {name} is no rotation and place in finite numbers"
                 )
@@ -310,38 +365,40 @@ impl Model {
     /// The first point whose numbers are no place, with its file.
     pub fn measured_points(&self) -> Result<Vec<[f64; 3]>, String> {
         let point = |point: &Point| {
-            self.numbers(&point.place).ok_or_else(|| {
-                let (file, id) = (file_name(POINTS, self.encoding), point.id);
+            numbers(self.encoding, &point.place).ok_or_else(|| {
+                let (file, id) = (Part::Points.file(self.encoding), point.id);
                 format!("{file}: the place of point {id} is not in finite numbers")
             })
         };
         self.points.iter().map(point).collect()
     }
 
-    /// The first numbers of a record, if they are finite.
-    fn numbers<const N: usize>(&self, record: &[u8]) -> Option<[f64; N]> {
-        let numbers: Vec<f64> = match self.encoding {
-            Encoding::Binary => {
-                let (numbers, _) = record.as_chunks::<8>();
-                numbers.iter().copied().map(f64::from_le_bytes).collect()
-            }
-            Encoding::Text => {
-                let words = std::str::from_utf8(record).ok()?.split(' ');
-                words.map_while(|word| word.parse().ok()).collect()
-            }
-        };
-        let numbers = numbers.first_chunk::<N>().copied();
-        numbers.filter(|all| all.iter().all(|x| x.is_finite()))
-    }
-
     /// The names of the files that [`write`](Self::write) makes.
     pub fn files(&self) -> Vec<String> {
-        let always = [Some(CAMERAS), Some(IMAGES), Some(POINTS)].into_iter();
-        let rigs = self.rigs.as_ref().map(|_| RIGS);
-        let frames = self.frames.as_ref().map(|_| FRAMES);
-        let stems = always.chain([rigs, frames]).flatten();
-        stems.map(|stem| file_name(stem, self.encoding)).collect()
+        let rigs = self.rigs.as_ref().map(|_| Part::Rigs);
+        let frames = self.frames.as_ref().map(|_| Part::Frames);
+        let always = [Part::Cameras, Part::Images, Part::Points];
+        let parts = always.into_iter().chain(rigs).chain(frames);
+        parts
+            .map(|part| part.file(self.encoding).to_owned())
+            .collect()
     }
+}
+
+/// The first numbers of a record, if they are finite.
+fn numbers<const N: usize>(encoding: Encoding, record: &[u8]) -> Option<[f64; N]> {
+    let numbers: Vec<f64> = match encoding {
+        Encoding::Binary => {
+            let (numbers, _) = record.as_chunks::<8>();
+            numbers.iter().copied().map(f64::from_le_bytes).collect()
+        }
+        Encoding::Text => {
+            let words = std::str::from_utf8(record).ok()?.split(' ');
+            words.map_while(|word| word.parse().ok()).collect()
+        }
+    };
+    let numbers = numbers.first_chunk::<N>().copied();
+    numbers.filter(|all| all.iter().all(|x| x.is_finite()))
 }
 
 impl Point {
@@ -370,37 +427,24 @@ impl Point {
 impl Frame {
     /// The frame with some images, if it has one of them; what is no image stays.
     fn with(&self, images: &HashMap<u32, u32>) -> Option<Self> {
+        let is_image = |datum: &Datum| records::is_camera(&datum.kind);
         let is_in = |datum: &&Datum| {
-            !datum.is_image || u32::try_from(datum.id).is_ok_and(|id| images.contains_key(&id))
+            let image = datum.image();
+            !is_image(datum) || image.is_some_and(|id| images.contains_key(&id))
         };
         let data: Vec<Datum> = self.data.iter().filter(is_in).cloned().collect();
-        data.iter().any(|datum| datum.is_image).then(|| Self {
-            head: self.head.clone(),
+        data.iter().any(is_image).then(|| Self {
             data,
+            pose: self.pose.clone(),
+            ..*self
         })
     }
 }
 
-fn file_name(stem: &str, encoding: Encoding) -> String {
-    let extension = match encoding {
-        Encoding::Binary => "bin",
-        Encoding::Text => "txt",
-    };
-    format!("{stem}.{extension}")
-}
-
 /// Every file that a model may have.
 pub fn is_file_of_model(name: &str) -> bool {
-    let stem = name.strip_suffix(".bin").or(name.strip_suffix(".txt"));
-    stem.is_some_and(|stem| [CAMERAS, RIGS, FRAMES, IMAGES, POINTS].contains(&stem))
-}
-
-/// A fault in one of the files of a folder.
-fn within(file: &str, fault: Fault) -> Fault {
-    Place::Input.fault(Problem::Within {
-        part: format!("{file}{}", fault.place),
-        problem: Box::new(fault.problem),
-    })
+    let mut titles = TITLES.iter().flatten();
+    titles.any(|title| title.strip_prefix("COLMAP's ") == Some(name))
 }
 
 /// A double as the rational number that it is; nothing for infinities and what is no number.
@@ -421,5 +465,7 @@ pub(crate) fn exact(number: f64) -> Option<Rational> {
     Some(Rational::scaled(mantissa, 2, exponent))
 }
 
+#[cfg(test)]
+mod rig_tests;
 #[cfg(test)]
 mod tests;

@@ -44,9 +44,7 @@ fn binary_model() -> tempfile::TempDir {
             .collect::<Vec<u8>>()
     };
     let images = text.images.iter().map(|image| Image {
-        pose: [doubles(&image.pose, 7), 1u32.to_le_bytes().to_vec()]
-            .concat()
-            .into(),
+        pose: [doubles(&image.pose, 7), 1u32.to_le_bytes().to_vec()].concat(),
         places: image
             .places
             .split_inclusive(|&byte| byte == b'\n')
@@ -55,36 +53,18 @@ fn binary_model() -> tempfile::TempDir {
         ..image.clone()
     });
     let points = text.points.iter().map(|point| Point {
-        place: [doubles(&point.place, 3), vec![1, 2, 3]].concat().into(),
-        error: point.error.as_ref().map(|error| doubles(error, 1).into()),
+        place: [doubles(&point.place, 3), vec![1, 2, 3]].concat(),
+        error: point.error.as_ref().map(|error| doubles(error, 1)),
         ..point.clone()
     });
-    let frames = text.frames.iter().flatten().map(|frame| {
-        let pose: Vec<u8> = frame
-            .head
-            .splitn(3, |&c| c == b' ')
-            .nth(2)
-            .unwrap()
-            .to_vec();
-        let sensor =
-            |datum: &Datum| [u32::from(!datum.is_image).to_le_bytes(), 1u32.to_le_bytes()].concat();
-        Frame {
-            head: [
-                4u32.to_le_bytes().to_vec(),
-                1u32.to_le_bytes().to_vec(),
-                doubles(&pose, 7),
-            ]
-            .concat()
-            .into(),
-            data: frame
-                .data
-                .iter()
-                .map(|datum| Datum {
-                    sensor: sensor(datum).into(),
-                    ..datum.clone()
-                })
-                .collect(),
-        }
+    let datum = |datum: &Datum| Datum {
+        kind: u32::from(datum.image().is_none()).to_le_bytes().to_vec(),
+        ..datum.clone()
+    };
+    let frames = text.frames.iter().flatten().map(|frame| Frame {
+        pose: doubles(&frame.pose, 7),
+        data: frame.data.iter().map(datum).collect(),
+        ..*frame
     });
     let model = Model {
         encoding: Encoding::Binary,

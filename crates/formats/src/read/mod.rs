@@ -20,7 +20,7 @@ use crate::read_as::{Parsed, ReadAs};
 use crate::recognise;
 use crate::recognise::Kind;
 use crate::tracks::{self, Frames, TrackFacts, TrackOptions};
-use crate::{edge_list, matlab, matrix_market};
+use crate::{edge_list, matlab, matrix_market, model};
 use viewcert::graph::{Graph, Labels};
 
 /// A graph as it was read.
@@ -488,7 +488,7 @@ fn tracks_of(
 /// What is in a folder.
 fn folder(folder: &Path, options: &ReadOptions) -> Result<NamedGraph, ReadError> {
     let name = &folder.display().to_string();
-    let is_model = tracks::is_model(folder);
+    let is_model = model::encoding_in(folder).is_some();
     let inside = if is_model {
         Vec::new()
     } else {
@@ -498,7 +498,7 @@ fn folder(folder: &Path, options: &ReadOptions) -> Result<NamedGraph, ReadError>
         return Err(Place::Input.fault(Problem::Holds(inside)).in_file(name));
     }
     match options.tracks {
-        None if tracks::has_no_points(folder) => {
+        None if model::has_no_points(folder) => {
             let graph = tracks::read_folder(folder, TrackOptions::default());
             tracks_called(name, graph)
         }
@@ -530,7 +530,8 @@ fn inside(folder: &Path, depth: usize) -> Vec<String> {
         let is_named_so = path
             .extension()
             .is_some_and(|is| is == "db" || is == "sqlite");
-        let is_input = tracks::is_model(&path) || is_named_so && colmap::is_database(&path);
+        let is_input =
+            model::encoding_in(&path).is_some() || is_named_so && colmap::is_database(&path);
         match is_input || depth <= 1 {
             true => Vec::from_iter(is_input.then(|| path.display().to_string())),
             false => inside(&path, depth - 1),

@@ -1,7 +1,7 @@
 //! Which of the files with tracks an input is, by its beginning.
 
-use super::model_files::{Encoding, Part};
-use super::{model_binary, words};
+use super::words;
+use crate::model::{self, Encoding, Part};
 
 /// A file with tracks, or a part of one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,14 +40,7 @@ impl TrackFile {
             Self::Bundler => "a Bundler file",
             Self::Nvm => "an NVM file of VisualSFM",
             Self::OpenMvgMatches => "a file of feature matches (OpenMVG)",
-            Self::Colmap { part, encoding } => match (part, encoding) {
-                (Part::Cameras, Encoding::Binary) => "COLMAP's cameras.bin",
-                (Part::Images, Encoding::Binary) => "COLMAP's images.bin",
-                (Part::Points, Encoding::Binary) => "COLMAP's points3D.bin",
-                (Part::Cameras, Encoding::Text) => "COLMAP's cameras.txt",
-                (Part::Images, Encoding::Text) => "COLMAP's images.txt",
-                (Part::Points, Encoding::Text) => "COLMAP's points3D.txt",
-            },
+            Self::Colmap { part, encoding } => part.title(encoding),
         }
     }
 }
@@ -55,7 +48,7 @@ impl TrackFile {
 /// Which file begins with `head`, which is all of it if `whole`.
 pub(crate) fn kind(head: &[u8], whole: bool) -> Option<TrackFile> {
     if head.contains(&0) {
-        let part = model_binary::part(head, whole)?;
+        let part = model::part(head, whole)?;
         let encoding = Encoding::Binary;
         return Some(TrackFile::Colmap { part, encoding });
     }

@@ -14,26 +14,19 @@ mod graph;
 mod join;
 mod kind;
 mod model;
-mod model_binary;
-mod model_files;
-mod model_rigs;
-mod model_text;
 mod nvm;
 mod openmvg;
-mod words;
+pub(crate) mod words;
 
 pub use frames::Frames;
 pub use graph::{TrackFacts, TrackOptions};
 
 #[cfg(feature = "databases")]
 pub(crate) use doubled::Places;
-#[cfg(feature = "databases")]
 pub(crate) use frames::{Frame, Pose, Rig, read as read_frames};
 pub(crate) use graph::TrackGraph;
 pub(crate) use join::Joined;
 pub(crate) use kind::{TrackFile, kind};
-pub(crate) use model::{encoding_in, frames_in, has_no_points, is_model};
-pub(crate) use model_files::Encoding as ModelEncoding;
 
 use std::io::Read;
 use std::path::Path;

@@ -1,67 +1,41 @@
-//! COLMAP's models: a folder with `cameras`, `images` and `points3D`, as `.bin` or as `.txt`.
-//!
-//! The tracks are those of points3D; images gives the names of the images, and those that see no
-//! point. Formats: COLMAP's documentation, "Output Format".
+//! The graph of a model of COLMAP ([`model`](crate::model)): the tracks are those of points3D; images gives
+//! the names of the images, and those that see no point.
 
 use std::collections::HashMap;
-use std::fs::File;
 use std::io::Read;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::graph::{TrackGraph, TrackOptions, sorted};
-use super::model_files::{Encoding, Image, Part, Points};
-use super::words::Words;
-use super::{Frames, model_binary, model_rigs, model_text};
 use crate::NamedGraph;
 use crate::error::{Fault, Place, Problem};
+use crate::model::{self, Encoding, Fields, Part};
 use viewcert::wording::counted;
 
-/// The name of a file of a model.
-fn file_name(part: Part, encoding: Encoding) -> &'static str {
-    match (part, encoding) {
-        (Part::Cameras, Encoding::Binary) => "cameras.bin",
-        (Part::Cameras, Encoding::Text) => "cameras.txt",
-        (Part::Images, Encoding::Binary) => "images.bin",
-        (Part::Images, Encoding::Text) => "images.txt",
-        (Part::Points, Encoding::Binary) => "points3D.bin",
-        (Part::Points, Encoding::Text) => "points3D.txt",
-    }
+/// The tracks of a model by the numbers of images, one track after another.
+#[derive(Default)]
+struct Tracks {
+    images: Vec<u32>,
+    /// Where the images of every track end.
+    ends: Vec<usize>,
 }
 
-/// How the model in a folder is written, if there is one; `.bin` goes first, as in COLMAP.
-pub(crate) fn encoding_in(folder: &Path) -> Option<Encoding> {
-    let there = |&encoding: &_| folder.join(file_name(Part::Points, encoding)).is_file();
-    [Encoding::Binary, Encoding::Text].into_iter().find(there)
-}
-
-/// Whether there is a model in a folder.
-pub(crate) fn is_model(folder: &Path) -> bool {
-    encoding_in(folder).is_some()
-}
-
-/// Whether there is a model in a folder, and no point in it. O(bytes) of the comments.
-pub(crate) fn has_no_points(folder: &Path) -> bool {
-    let Some(encoding) = encoding_in(folder) else {
-        return false;
-    };
-    let file = File::open(folder.join(file_name(Part::Points, encoding)));
-    file.is_ok_and(|file| match encoding {
-        Encoding::Binary => {
-            let mut count = [0; 8];
-            let mut file = file;
-            file.read_exact(&mut count).is_ok() && count == [0; 8]
-        }
-        Encoding::Text => matches!(Words::new(file).next_full_line(), Ok(false)),
-    })
+fn tracks(fields: &mut dyn Fields) -> Result<Tracks, Fault> {
+    let mut tracks = Tracks::default();
+    model::each_point(fields, |point| {
+        let images = point.track.iter().map(|&(image, _)| image);
+        tracks.images.extend(images);
+        tracks.ends.push(tracks.images.len());
+    })?;
+    Ok(tracks)
 }
 
 /// The graph of the model in a folder.
 pub(super) fn folder(folder: &Path, options: TrackOptions) -> Result<NamedGraph, Fault> {
-    let Some(encoding) = encoding_in(folder) else {
+    let Some(encoding) = model::encoding_in(folder) else {
         return Err(Place::Input.fault(Problem::NoModel));
     };
-    let input = open(&folder.join(file_name(Part::Points, encoding)))?;
-    beside(Some(folder), Part::Points, encoding, input, options)
+    let tracks = Part::Points.read(folder, encoding, tracks)?;
+    graph(Some(folder), encoding, &tracks, options)
 }
 
 /// The graph of a model of which one file is `input`, and the others are in a folder.
@@ -72,139 +46,57 @@ pub(super) fn beside(
     input: impl Read,
     options: TrackOptions,
 ) -> Result<NamedGraph, Fault> {
-    let other = |part| -> Option<PathBuf> {
-        let path = folder?.join(file_name(part, encoding));
-        path.is_file().then_some(path)
-    };
-    let points = match (part, other(Part::Points)) {
-        (Part::Points, _) => points(input, encoding)?,
-        (_, Some(path)) => points(open(&path)?, encoding).map_err(|fault| within(&path, fault))?,
+    let with_points = folder.filter(|folder| Part::Points.is_in(folder, encoding));
+    let tracks = match (part, with_points) {
+        (Part::Points, _) => tracks(&mut *model::fields(input, encoding))?,
+        (_, Some(folder)) => Part::Points.read(folder, encoding, tracks)?,
         (_, None) => return Err(Place::Input.fault(Problem::NoModel)),
     };
-    let images = match other(Part::Images) {
-        Some(path) => Some(images(&path, encoding).map_err(|fault| within(&path, fault))?),
-        None => None,
-    };
-    let unnamed = images.is_none();
-    let images = images.unwrap_or_else(|| numbered(&points));
-    let rigs = if options.rigs && !unnamed {
-        rigs_beside(folder, encoding)?.map(|rigs| (encoding, rigs))
-    } else {
-        None
-    };
-    let mut graph = graph(images, unnamed, &points, rigs, options)?;
-    if unnamed {
-        graph.notes.insert(
-            0,
-            format!(
-                "{} is not beside it: images are called by their numbers, and those without points \
-                 are not known",
-                file_name(Part::Images, encoding)
-            ),
-        );
-    }
-    Ok(graph)
+    graph(folder, encoding, &tracks, options)
 }
 
-/// The files of rigs and of frames, if both are there.
-fn rigs_beside(folder: Option<&Path>, encoding: Encoding) -> Result<Option<[Vec<u8>; 2]>, Fault> {
-    let names = match encoding {
-        Encoding::Binary => ["rigs.bin", "frames.bin"],
-        Encoding::Text => ["rigs.txt", "frames.txt"],
-    };
-    let Some(folder) = folder else {
-        return Ok(None);
-    };
-    let paths = names.map(|name| folder.join(name));
-    if !paths.iter().all(|path| path.is_file()) {
-        return Ok(None);
-    }
-    let read = |path: &Path| {
-        std::fs::read(path).map_err(|error| within(path, Place::Input.fault(error.into())))
-    };
-    Ok(Some([read(&paths[0])?, read(&paths[1])?]))
-}
-
-/// What the rigs of the model in a folder say of the images `names`, whose nodes are known by their
-/// numbers; nothing, if it has none.
-pub(crate) fn frames_in(
-    folder: &Path,
-    encoding: Encoding,
-    names: &[Box<str>],
-    nodes: &HashMap<u32, u32>,
-) -> Result<Frames, Fault> {
-    match rigs_beside(Some(folder), encoding)? {
-        Some([rigs, frames]) => model_rigs::frames(&rigs, &frames, encoding, names, nodes),
-        None => Ok(Frames::default()),
-    }
-}
-
-fn open(path: &Path) -> Result<File, Fault> {
-    File::open(path).map_err(|error| within(path, Place::Input.fault(error.into())))
-}
-
-/// A fault of another file than the one that was named.
-fn within(path: &Path, fault: Fault) -> Fault {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    Place::Input.fault(Problem::Within {
-        part: format!("{name}{}", fault.place),
-        problem: Box::new(fault.problem),
-    })
-}
-
-fn points(input: impl Read, encoding: Encoding) -> Result<Points, Fault> {
-    match encoding {
-        Encoding::Binary => model_binary::points(input),
-        Encoding::Text => model_text::points(input),
-    }
-}
-
-fn images(path: &Path, encoding: Encoding) -> Result<Vec<Image>, Fault> {
-    let file = File::open(path).map_err(|error| Place::Input.fault(error.into()))?;
-    match encoding {
-        Encoding::Binary => model_binary::images(file),
-        Encoding::Text => model_text::images(file),
-    }
-}
-
-/// The images that tracks name, increasing, called by their numbers.
-fn numbered(points: &Points) -> Vec<Image> {
-    let mut ids = points.images.clone();
-    ids.sort_unstable();
-    ids.dedup();
-    let image = |id: u32| Image {
-        id,
-        name: id.to_string().into(),
-    };
-    ids.into_iter().map(image).collect()
-}
-
-/// The graph of tracks; images by name, or in the order given if they have none.
+/// The graph of tracks; images by name, or in the order of their numbers if they have none.
 fn graph(
-    images: Vec<Image>,
-    in_order: bool,
-    points: &Points,
-    rigs: Option<(Encoding, [Vec<u8>; 2])>,
+    folder: Option<&Path>,
+    encoding: Encoding,
+    tracks: &Tracks,
     options: TrackOptions,
 ) -> Result<NamedGraph, Fault> {
     let input = |problem: Problem| Place::Input.fault(problem);
-    let ids: Vec<u32> = images.iter().map(|image| image.id).collect();
-    let names: Vec<Box<str>> = images.into_iter().map(|image| image.name).collect();
-    let (names, nodes) = if in_order {
-        let nodes = (0..names.len() as u32).collect();
-        (names, nodes)
-    } else {
-        sorted(names).map_err(input)?
+    let named = folder.filter(|folder| Part::Images.is_in(folder, encoding));
+    let (ids, names, nodes): (Vec<u32>, _, _) = match named {
+        Some(folder) => {
+            let images =
+                Part::Images.read(folder, encoding, |fields| model::images(fields, false))?;
+            let images = images.into_iter().map(|image| (image.id, image.name));
+            let (ids, names) = images.unzip();
+            let (names, nodes) = sorted(names).map_err(input)?;
+            (ids, names, nodes)
+        }
+        None => {
+            let mut ids = tracks.images.clone();
+            ids.sort_unstable();
+            ids.dedup();
+            let names = ids.iter().map(|id| id.to_string().into()).collect();
+            let nodes = (0..ids.len() as u32).collect();
+            (ids, names, nodes)
+        }
     };
     let count = ids.len();
     let node_of: HashMap<u32, u32> = ids.into_iter().zip(nodes).collect();
     if node_of.len() < count {
         return Err(input(Problem::Corrupt("two images have one number".into())));
     }
-    let frames = match &rigs {
-        Some((encoding, [rigs, frames])) => Some(model_rigs::frames(
-            rigs, frames, *encoding, &names, &node_of,
-        )?),
+    let rigs = |folder: &&Path| {
+        let parts = [Part::Rigs, Part::Frames];
+        options.rigs && parts.iter().all(|part| part.is_in(folder, encoding))
+    };
+    let frames = match named.filter(rigs) {
+        Some(folder) => {
+            let rigs = Part::Rigs.read(folder, encoding, model::rigs)?;
+            let frames = Part::Frames.read(folder, encoding, model::frames)?;
+            Some(model::known(&rigs, &frames, &names, &node_of)?)
+        }
         None => None,
     };
     let mut graph = TrackGraph::new(names, options)?;
@@ -213,9 +105,9 @@ fn graph(
     }
     let mut views = Vec::new();
     let (mut from, mut doubled) = (0, 0);
-    for &end in &points.ends {
+    for &end in &tracks.ends {
         views.clear();
-        for id in &points.images[from..end] {
+        for id in &tracks.images[from..end] {
             let Some(&node) = node_of.get(id) else {
                 let why = format!("a point is seen in image {id}, which is not among the images");
                 return Err(input(Problem::Corrupt(why)));
@@ -232,13 +124,18 @@ fn graph(
     }
     let mut graph = graph.finish()?;
     if doubled > 0 {
-        graph.notes.insert(
-            0,
-            format!(
-                "{} with several features in one image: one view each",
-                counted(doubled, "point")
-            ),
+        let note = format!(
+            "{} with several features in one image: one view each",
+            counted(doubled, "point")
         );
+        graph.notes.insert(0, note);
+    }
+    if named.is_none() {
+        let note = format!(
+            "{} is not beside it: images are called by their numbers, and those without points are not known",
+            Part::Images.file(encoding)
+        );
+        graph.notes.insert(0, note);
     }
     Ok(graph)
 }

@@ -1,7 +1,7 @@
 use std::io::Cursor;
 
-use super::model_files::{Encoding, Part};
 use super::*;
+use crate::model::{self, Encoding, Part};
 use crate::read::graphs;
 use crate::{ReadError, ReadOptions};
 use proptest::prelude::*;
@@ -98,7 +98,7 @@ fn what_is_broken_is_said_with_its_line() {
         ),
         (
             b"1 0.5 -1 4 9 9 9 0.1 1 0\n1 0.5 -1 4 9 9 9 0.1 1 0 2\n",
-            "in:2: the file is corrupt: the last view",
+            "in:2: the file is corrupt: a feature of a track is missing",
         ),
         (
             b"1 1 0 0 0 0 0 0 1 a b.jpg\n\n",
@@ -141,7 +141,8 @@ fn binary_files_hold_what_they_promise() {
     }
     // Nor does a reader that is sure of it believe the numbers.
     for (count, length) in [(2, 2), (1, 3), (1, 1), (u64::MAX, 2), (1, u64::MAX)] {
-        assert!(model_binary::points(Cursor::new(points(count, length))).is_err());
+        let mut fields = model::fields(Cursor::new(points(count, length)), Encoding::Binary);
+        assert!(model::each_point(&mut *fields, |_| ()).is_err());
     }
     let mut nan = points(1, 2);
     nan[16..24].copy_from_slice(&f64::NAN.to_le_bytes());

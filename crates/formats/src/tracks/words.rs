@@ -10,7 +10,7 @@ use crate::error::{Fault, Place, Problem};
 const LINE_LIMIT: u64 = 1 << 28;
 
 /// A text that is read word by word, over the ends of lines, or line by line.
-pub(super) struct Words<R> {
+pub(crate) struct Words<R> {
     input: BufReader<R>,
     line: Vec<u8>,
     /// What has been read of the line.
@@ -23,7 +23,7 @@ fn is_blank(byte: u8) -> bool {
 }
 
 impl<R: Read> Words<R> {
-    pub(super) fn new(input: R) -> Self {
+    pub(crate) fn new(input: R) -> Self {
         Self {
             input: BufReader::with_capacity(1 << 16, input),
             line: Vec::new(),
@@ -33,17 +33,17 @@ impl<R: Read> Words<R> {
     }
 
     /// A refusal at this line.
-    pub(super) fn corrupt(&self, why: impl Into<String>) -> Fault {
+    pub(crate) fn corrupt(&self, why: impl Into<String>) -> Fault {
         Place::Line(self.number).fault(Problem::Corrupt(why.into()))
     }
 
     /// A refusal since the text ends here.
-    pub(super) fn truncated(&self, missing: &str) -> Fault {
+    pub(crate) fn truncated(&self, missing: &str) -> Fault {
         Place::Line(self.number).fault(Problem::Truncated(format!("{missing} is missing")))
     }
 
     /// Goes to the next line; whether there is one.
-    pub(super) fn next_line(&mut self) -> Result<bool, Fault> {
+    pub(crate) fn next_line(&mut self) -> Result<bool, Fault> {
         self.line.clear();
         self.at = 0;
         let got = self
@@ -67,7 +67,7 @@ impl<R: Read> Words<R> {
     }
 
     /// Goes to the next line that is neither blank nor a comment; whether there is one.
-    pub(super) fn next_full_line(&mut self) -> Result<bool, Fault> {
+    pub(crate) fn next_full_line(&mut self) -> Result<bool, Fault> {
         while self.next_line()? {
             let rest = self.rest();
             if !rest.is_empty() && !rest.starts_with(b"#") {
@@ -78,7 +78,7 @@ impl<R: Read> Words<R> {
     }
 
     /// What is left of the line, without blanks around it.
-    pub(super) fn rest(&self) -> &[u8] {
+    pub(crate) fn rest(&self) -> &[u8] {
         self.line[self.at..].trim_ascii()
     }
 
@@ -93,12 +93,12 @@ impl<R: Read> Words<R> {
     }
 
     /// The next word of this line.
-    pub(super) fn word_of_line(&mut self) -> Option<&[u8]> {
+    pub(crate) fn word_of_line(&mut self) -> Option<&[u8]> {
         self.word_here().map(|(start, end)| &self.line[start..end])
     }
 
     /// The next word, on this line or a later one.
-    pub(super) fn word(&mut self) -> Result<Option<&[u8]>, Fault> {
+    pub(crate) fn word(&mut self) -> Result<Option<&[u8]>, Fault> {
         let (start, end) = loop {
             if let Some(range) = self.word_here() {
                 break range;
@@ -111,7 +111,7 @@ impl<R: Read> Words<R> {
     }
 
     /// Passes over words, which have to be there.
-    pub(super) fn skip(&mut self, count: u64, what: &str) -> Result<(), Fault> {
+    pub(crate) fn skip(&mut self, count: u64, what: &str) -> Result<(), Fault> {
         for _ in 0..count {
             if self.word()?.is_none() {
                 return Err(self.truncated(what));
@@ -121,7 +121,7 @@ impl<R: Read> Words<R> {
     }
 
     /// The next word as a whole number.
-    pub(super) fn number(&mut self, what: &str) -> Result<u64, Fault> {
+    pub(crate) fn number(&mut self, what: &str) -> Result<u64, Fault> {
         let Some(word) = self.word()? else {
             return Err(self.truncated(what));
         };
@@ -135,7 +135,7 @@ impl<R: Read> Words<R> {
     }
 
     /// The next word as a number below a limit.
-    pub(super) fn number_below(&mut self, limit: u64, what: &str) -> Result<u32, Fault> {
+    pub(crate) fn number_below(&mut self, limit: u64, what: &str) -> Result<u32, Fault> {
         let value = self.number(what)?;
         match u32::try_from(value) {
             Ok(small) if value < limit => Ok(small),
@@ -145,13 +145,13 @@ impl<R: Read> Words<R> {
 }
 
 /// A word in a message: its beginning, if it is long.
-pub(super) fn shown(word: &[u8]) -> String {
+pub(crate) fn shown(word: &[u8]) -> String {
     let word = String::from_utf8_lossy(word);
     word.chars().filter(|c| !c.is_control()).take(40).collect()
 }
 
 /// A word of decimal digits.
-pub(super) fn integer(word: &[u8]) -> Option<u64> {
+pub(crate) fn integer(word: &[u8]) -> Option<u64> {
     if word.is_empty() {
         return None;
     }
@@ -163,12 +163,12 @@ pub(super) fn integer(word: &[u8]) -> Option<u64> {
 }
 
 /// A word that is a decimal number, with a fraction or exponent perhaps.
-pub(super) fn is_number(word: &[u8]) -> bool {
+pub(crate) fn is_number(word: &[u8]) -> bool {
     fields::is_number(word)
 }
 
 /// The words of the first three lines of a text that are neither blank nor comments.
-pub(super) fn first_lines(text: &[u8], whole: bool) -> Vec<Vec<&[u8]>> {
+pub(crate) fn first_lines(text: &[u8], whole: bool) -> Vec<Vec<&[u8]>> {
     let end = match text.iter().rposition(|&byte| byte == b'\n') {
         Some(end) if !whole => end,
         _ => text.len(),

@@ -7,7 +7,9 @@ const FRAMES: &str =
 fn found(rigs: &[u8], frames_: &[u8], encoding: Encoding) -> Result<Frames, Fault> {
     let names: Vec<Box<str>> = ["a", "b", "c"].map(Box::from).to_vec();
     let nodes = HashMap::from([(11, 0), (12, 1), (13, 2)]);
-    frames(rigs, frames_, encoding, &names, &nodes)
+    let rigs = super::rigs(&mut *fields(rigs, encoding))?;
+    let frames = super::frames(&mut *fields(frames_, encoding))?;
+    known(&rigs, &frames, &names, &nodes)
 }
 
 #[test]
