@@ -1082,7 +1082,7 @@ fn models_and_files_of_tracks() {
     refused(
         &plain,
         &["--tracks"],
-        &["plain: images.txt:1: ", "fewer than 10 fields"],
+        &["plain: images.txt:1: ", "the pose or camera of an image"],
     );
 }
 
