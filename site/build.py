@@ -2,7 +2,7 @@
 """Builds the site into target/site: the atlas, its search, the checkers in the page, the documentation.
 
 It works from the disk (open target/site/index.html) and from any web server, and loads nothing from elsewhere. Needs
-`target/debug/verify`, npm (Python for the browser, formulas), for the program in the page Debian's compiler (site/README.md), and,
+`target/debug/verify` and `target/debug/viewcert-lab`, npm (Python for the browser, formulas), for the program in the page Debian's compiler (site/README.md), and,
 for the proved checker, what proofs/build.sh has made. The documentation is made by Sphinx (site/requirements.txt), which --docs-python has; a folder for it is made if not."""
 
 import argparse
@@ -32,12 +32,12 @@ def step(what, begin):
     print(f"{time.monotonic() - begin:7.1f} s  {what}", flush=True)
 
 
-def atlas(program, target, largest, begin):
+def atlas(program, laboratory, target, largest, begin):
     """All pages about graphs, and the rows of the search."""
     of_catalog = records.catalog(program)
     step(f"{len(of_catalog)} graphs of the catalog", begin)
     beside = records.famous(program)
-    records.complete(program, of_catalog + beside)
+    records.complete(program, laboratory, of_catalog + beside)
     step("proofs, pictures, witnesses", begin)
     rows = records.rows(program, of_catalog + beside, largest)
     step(f"{len(rows)} rows", begin)
@@ -61,6 +61,7 @@ def atlas(program, target, largest, begin):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--verify", default=ROOT / "target/debug/verify", help="the program")
+    parser.add_argument("--lab", default=ROOT / "target/debug/viewcert-lab", help="the laboratory's program")
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "target/site")
     parser.add_argument("--cache", type=pathlib.Path, default=ROOT / "target/site-cache")
     parser.add_argument("--docs-python", help="a Python that has Sphinx, MyST and furo")
@@ -82,7 +83,7 @@ def main():
     browser.writer(static)
     scripts = scripts and browser.program(static)
     step("the program for the page", begin)
-    famous = atlas(Program(asked.verify, asked.cache), asked.out, asked.largest, begin)
+    famous = atlas(Program(asked.verify, asked.cache), Program(asked.lab, asked.cache), asked.out, asked.largest, begin)
     counts = counted((ROOT / "certificates/counts.tsv").read_text(), asked.largest)
     write(asked.out / "index.html", start_page(famous, counts, asked.largest, sequences.digests()))
     write(asked.out / "search.html", search_page())

@@ -318,8 +318,7 @@ impl Work<'_> {
             written.proof = Some(proof);
         }
         if let Some(path) = &products.witness {
-            let wish = (self.plan.seed, products.oriented);
-            match witness::write(outputs, path, input, verdict, wish)? {
+            match witness::write(outputs, path, input, verdict, self.plan.seed)? {
                 Ok(()) => {
                     let line = format!("witness     {}", shown(path));
                     written.lines.push(line);

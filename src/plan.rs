@@ -78,8 +78,6 @@ pub(super) struct Products {
     pub(super) proof: Option<PathBuf>,
     /// Two families of cameras with the same fundamental matrices.
     pub(super) witness: Option<PathBuf>,
-    /// Whether these are to be real, and each of a scene in front of its cameras.
-    pub(super) oriented: bool,
     /// The page.
     pub(super) page: Option<PathBuf>,
     /// The picture.

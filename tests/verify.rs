@@ -312,22 +312,10 @@ fn solutions_are_counted() {
         let lines = run.json().into_iter();
         lines
             .map(|line| {
-                let mut solutions = line["solutions"].clone();
-                if let Some(oriented) = solutions
-                    .as_object_mut()
-                    .and_then(|all| all.remove("oriented"))
-                {
-                    // The second of two solutions is rational, as its conjugate would be a third; one scene is in front.
-                    assert!(arguments.contains(&"--solutions=full"), "{arguments:?}");
-                    for seen in oriented.as_array().unwrap() {
-                        assert_eq!(seen["real"], 2, "{oriented}");
-                        assert!(
-                            [1, 2].contains(&seen["oriented"].as_u64().unwrap()),
-                            "{oriented}"
-                        );
-                    }
-                }
-                (line["verdict"].as_str().unwrap().into(), solutions)
+                (
+                    line["verdict"].as_str().unwrap().into(),
+                    line["solutions"].clone(),
+                )
             })
             .collect()
     };

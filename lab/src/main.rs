@@ -58,6 +58,8 @@ enum Command {
     Solutions(command::solutions::Arguments),
     /// Count in how many scenes of the graphs with several solutions the scene is unique all the same.
     Oriented(command::oriented::Arguments),
+    /// Write, as JSON, another scene with the same images for each graph that has one.
+    Scenes(command::scenes::Arguments),
     /// Count the solutions of pieces of graphs that are only just finite solvable.
     Thin(command::thin::Arguments),
     /// Print the completion script of a shell for verify.
@@ -82,6 +84,7 @@ fn main() -> ExitCode {
             Command::Random(arguments) => command::random::run(session, arguments),
             Command::Solutions(arguments) => command::solutions::run(session, arguments),
             Command::Oriented(arguments) => command::oriented::run(session, arguments),
+            Command::Scenes(arguments) => command::scenes::run(session, arguments),
             Command::Thin(arguments) => command::thin::run(session, arguments),
             Command::Completions(arguments) => command::man::completions(arguments),
             Command::Manpage(arguments) => command::man::manpage(arguments),

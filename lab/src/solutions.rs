@@ -102,7 +102,7 @@ pub fn tally(
     options: &Options,
     done: impl Fn(u64) + Sync,
 ) -> Result<Tally, VerdictError> {
-    let question = Projective::with_solutions(CountSolutions::Number);
+    let question = Projective::with_solutions(CountSolutions::Full);
     let options = options.clone().question(question);
     let found: Vec<Option<Bounds>> = graphs
         .par_iter()

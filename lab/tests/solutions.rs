@@ -86,3 +86,62 @@ fn thinned_pieces() {
     }
     assert_eq!((one.len(), two.len()), (3, 3));
 }
+
+/// A second scene in front of its cameras is checked by a script that shares nothing with the program: by
+/// fractions, with points that both scenes show at the same places of all images.
+#[test]
+#[ignore = "needs python3"]
+fn a_second_scene_to_look_at() {
+    let folder = tempfile::tempdir().unwrap();
+    let graphs = folder.path().join("graphs.g6");
+    // The second graph is one body.
+    std::fs::write(&graphs, "HBQkcP_\nD]o\n").unwrap();
+    let run = workshop(&["scenes", graphs.to_str().unwrap()]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    let lines = run.json();
+    let [found, none] = &lines[..] else {
+        panic!("{}", run.out)
+    };
+    assert_eq!(found["numbers"], serde_json::json!([[2, 1], [2, 2]]));
+    assert_eq!(none["numbers"], serde_json::json!([]));
+    assert!(none["scene"].is_null() && none["picture"].is_null());
+    // Nine cameras and a point for each of twelve pairs, twice.
+    let picture = found["picture"].as_str().unwrap();
+    assert_eq!(picture.matches("<circle").count(), 2 * (9 + 12));
+    assert_eq!(picture.matches("<line").count(), 2 * 24);
+
+    let line = folder.path().join("line.json");
+    let script = crate::common::root().join("lab/tests/second_scene.py");
+    let checked = |found: &serde_json::Value| {
+        std::fs::write(&line, found.to_string()).unwrap();
+        let mut python = crate::common::python();
+        let run = python.arg(&script).arg(&line).output().unwrap();
+        let said = [run.stdout, run.stderr].map(|text| String::from_utf8(text).unwrap());
+        (run.status.code(), said.concat())
+    };
+    let (code, said) = checked(found);
+    assert_eq!(code, Some(0), "{said}");
+    assert!(said.starts_with("12 pairs see the same images"), "{said}");
+    let rejected = |place: &str, value: serde_json::Value, words: &str| {
+        let mut other = found.clone();
+        *other.pointer_mut(place).unwrap() = value;
+        let (code, said) = checked(&other);
+        assert_eq!(code, Some(1), "{said}");
+        assert!(said.contains(words), "{words}: {said}");
+    };
+    let entry = "/scene/second/0/0/0";
+    rejected(
+        entry,
+        serde_json::json!(["7"]),
+        "another fundamental matrix",
+    );
+    rejected(
+        "/edges/0",
+        serde_json::json!([0, 1]),
+        "another fundamental matrix",
+    );
+    // With two centres behind others no plane but a suitable one will do.
+    let plane = serde_json::json!([1, 0, 0, 0]);
+    let words = "no point is in front of both cameras of some pair";
+    rejected("/scene/plane", plane, words);
+}

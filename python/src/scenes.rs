@@ -6,37 +6,26 @@ use crate::work::{self, Job};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use viewcert_report::graph_picture::Picture;
-use viewcert_report::witness_file::{second, second_scene, write_second_scene, write_witness};
+use viewcert_report::witness_file::{second, write_witness};
 
-/// Two solutions as JSON: modulo a prime, or two scenes with the same images; and a picture of these, where
-/// they can be drawn. Instead of both, why there is nothing to look at: a word and a sentence.
+/// Two solutions modulo a prime, as JSON. Instead of them, why there is nothing to look at: a word and a
+/// sentence.
 #[pyfunction]
-#[expect(clippy::type_complexity, reason = "a tuple of Python")]
-#[pyo3(signature = (decided, *, seed=1, oriented=false))]
+#[pyo3(signature = (decided, *, seed=1))]
 pub(crate) fn witness(
     py: Python<'_>,
     decided: &Decided,
     seed: u64,
-    oriented: bool,
-) -> PyResult<(Option<String>, Option<String>, (&'static str, String))> {
+) -> PyResult<(Option<String>, (&'static str, String))> {
     let (input, verdict) = decided.answer();
     let work = move || {
-        let (mut out, mut drawn) = (Vec::new(), None);
-        let written = if oriented {
-            second_scene(&verdict).map(|scene| {
-                drawn = viewcert_report::second_scene::picture(&input, &scene);
-                write_second_scene(&mut out, &input, &scene)
-            })
-        } else {
-            let found = second(&input, &verdict, seed);
-            found.map(|found| write_witness(&mut out, &input, &found))
+        let found = match second(&input, &verdict, seed) {
+            Ok(found) => found,
+            Err(why) => return Ok((None, (why.name(), why.to_string()))),
         };
-        match written {
-            Ok(written) => written
-                .map_err(anyhow::Error::from)
-                .and_then(|()| Ok((Some(String::from_utf8(out)?), drawn, ("", String::new())))),
-            Err(why) => Ok((None, None, (why.name(), why.to_string()))),
-        }
+        let mut out = Vec::new();
+        write_witness(&mut out, &input, &found)?;
+        Ok((Some(String::from_utf8(out)?), ("", String::new())))
     };
     let found: anyhow::Result<_> = Job::new(py)?.run(py, work)?;
     found.map_err(|error| of_any(&error))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import pathlib
-from fractions import Fraction
 from typing import Any, Callable
 
 import networkx as nx
@@ -50,50 +49,6 @@ def test_both_families_have_the_fundamental_matrices(graph6: str, program: Progr
     assert int(said["prime"]) == found.prime
     for name in ("first", "second"):
         assert np.array_equal(np.array(said[name], dtype=np.uint64), getattr(found, name))
-
-
-@pytest.mark.parametrize("graph6", TWO)
-def test_two_scenes_with_the_same_images(graph6: str) -> None:
-    graph = graph_of(graph6)
-    try:
-        found = viewcert.witness(graph, oriented=True)
-    except viewcert.Undecided as error:
-        assert "in front of its cameras" in str(error)
-        return
-    assert isinstance(found, viewcert.SecondScene)
-    assert found.is_rational
-    second = found.second()
-    assert all(isinstance(x, Fraction) for x in second.ravel())
-    for i, j in graph.edges:
-        f, other = found.fundamental(i, j)
-        for matrix in (f, other):
-            assert is_of(matrix, found.first[i].astype(object), found.first[j].astype(object), lambda x: x == 0)
-            assert is_of(matrix, second[i], second[j], lambda x: x == 0)
-    # Not the same scene: on some pair that the graph does not have they differ.
-    assert any(
-        not is_of(found.fundamental(i, j)[0], second[i], second[j], lambda x: x == 0) for i, j in nx.non_edges(graph)
-    )
-    in_front = (found.centres @ np.array(found.plane[:3]) + found.plane[3]) != 0
-    assert in_front.all()
-    floats = found.floats()
-    for family, exact in zip(floats, (found.first, second)):
-        assert family.dtype == np.float64
-        for mine, theirs in zip(family, exact):
-            ratio = np.array(theirs, dtype=float)
-            ratio /= np.linalg.norm(ratio)
-            assert np.allclose(mine, ratio, rtol=1e-12, atol=1e-12)
-
-
-def test_some_of_them_have_one() -> None:
-    found = [graph6 for graph6 in TWO if _oriented(graph6)]
-    assert found
-
-
-def _oriented(graph6: str) -> bool:
-    try:
-        return viewcert.witness(graph_of(graph6), oriented=True) is not None
-    except viewcert.Undecided:
-        return False
 
 
 def test_where_there_is_none() -> None:

@@ -15,7 +15,7 @@ PYODIDE = ("pyodide", "314.0.7")
 KATEX = ("katex", "0.19.1")
 
 # What the second checker needs: all of its modules but tests and tools.
-TOOLS = {"agree.py", "conditions.py", "grow.py", "make.py", "path.py", "frames_by_force.py", "second_scene.py"}
+TOOLS = {"agree.py", "conditions.py", "grow.py", "make.py", "path.py", "frames_by_force.py"}
 
 
 def package(name, version, cache):

@@ -110,8 +110,7 @@ def story_section(record):
 def solutions_section(record):
     if not record.witness:
         return ""
-    oriented = (record.report["solutions"].get("oriented")) or []
-    seen = "; ".join(f"{o['oriented']} of {o['real']} real solutions are oriented" for o in oriented)
+    seen = "; ".join(f"{oriented} of {real} real solutions are oriented" for real, oriented in record.oriented)
     scene = ""
     if record.second_scene:
         picture = record.second_scene.replace("<svg ", '<svg class="scene" role="img" aria-label="Two scenes with the same images" ', 1)

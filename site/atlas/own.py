@@ -11,6 +11,6 @@ def written(graph6, said, siblings, listed):
     read = lambda name: json.loads(said[name]) if said.get(name) else None
     record = Record(graph6, read("report"), read("models"), read("label"), listed=listed)
     record.certificate, record.proof = said.get("certificate", ""), said.get("proof", "")
-    record.picture, record.witness, record.second_scene = said["picture"], said.get("witness", ""), said.get("scene", "")
+    record.picture, record.witness = said["picture"], said.get("witness", "")
     record.slug = record.label or graph6
     return article(record, siblings, "")

@@ -1,4 +1,4 @@
-"""Runs `verify`. What it printed is kept under target/site-cache by the program's own bytes and what it was asked, so
+"""Runs `verify`, or `viewcert-lab`. What it printed is kept under target/site-cache by the program's own bytes and what it was asked, so
 that a second build takes seconds."""
 
 import hashlib
@@ -20,7 +20,7 @@ class Program:
     def __init__(self, path, cache):
         self.path = pathlib.Path(path).resolve()
         if not self.path.is_file():
-            raise SystemExit(f"{path}: the program is not there; build it with `cargo build --bin verify`, or name it with --verify")
+            raise SystemExit(f"{path}: the program is not there; build it as site/build.py says, or name it with --verify or --lab")
         digest = hashlib.sha256(self.path.read_bytes()).hexdigest()[:16]
         self.cache = pathlib.Path(cache) / digest
         self.cache.mkdir(parents=True, exist_ok=True)
@@ -43,7 +43,7 @@ class Program:
         def make():
             done = subprocess.run([self.path, *words], input=text.encode(), capture_output=True)
             if done.returncode not in codes:
-                raise SystemExit(f"verify {' '.join(words)}: exit code {done.returncode}: {done.stderr.decode()}")
+                raise SystemExit(f"{self.path.name} {' '.join(words)}: exit code {done.returncode}: {done.stderr.decode()}")
             return done.stdout
 
         return self.kept(("run", words, text), make).decode()

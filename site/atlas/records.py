@@ -45,10 +45,6 @@ def catalog(program):
     certificates = [line for nodes in range(3, 11) for line in published(nodes)]
     lines = [json.loads(certificate)["graph"]["graph6"] for certificate in certificates]
     reports = program.lines([], lines)
-    several = [k for k, report in enumerate(reports) if report["solutions"]["at_least"] > 1]
-    # Where there are several, how many are real and oriented takes longer and is asked besides.
-    for k, report in zip(several, program.lines(["--solutions=full"], [lines[k] for k in several])):
-        reports[k] = report
     told = zip(lines, reports, program.lines(["models"], lines), program.lines(["label"], lines), certificates)
     records = [Record(line, report, models, name, certificate) for line, report, models, name, certificate in told]
     for record in records:
@@ -85,7 +81,7 @@ def famous(program):
     return records
 
 
-def complete(program, records):
+def complete(program, laboratory, records):
     """Adds proofs, pictures and witnesses, which take a run of the program each."""
     texts = [record.graph6 + "\n" for record in records]
     proofs = program.files(["GRAPH", "--proof", "FILE"], texts, codes=(0, 1))
@@ -94,11 +90,11 @@ def complete(program, records):
         record.proof, record.picture = proof, picture
     several = [r for r in records if (r.report.get("solutions") or {}).get("at_least", 1) > 1]
     texts = [record.graph6 + "\n" for record in several]
-    # Exit code 1: no second solution, or no second scene, was found.
+    # Exit code 1: no second solution was found.
     witnesses = program.files(["witness", "GRAPH", "FILE"], texts, codes=(0, 1))
-    scenes = program.files(["witness", "--oriented", "GRAPH", "PICTURE"], texts, codes=(0, 1))
-    for record, witness, scene in zip(several, witnesses, scenes):
-        record.witness, record.second_scene = witness, scene
+    scenes = laboratory.run(["scenes", "-"], "".join(texts)).splitlines()
+    for record, witness, scene in zip(several, witnesses, map(json.loads, scenes), strict=True):
+        record.witness, record.oriented, record.second_scene = witness, scene["numbers"], scene["picture"] or ""
 
 
 COLUMNS = ["label", "nodes", "pairs", "graph6", "degrees", "girth", "automorphisms", "triangles", "solutions", "affine", "calibrated", "kernel", "page"]

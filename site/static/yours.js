@@ -87,7 +87,7 @@ function tell() {
   words.append("This graph is in the atlas: ", link, ".");
 }
 
-// Seconds that one question may take, and the most pairs for which a scene and an explicit proof are asked for.
+// Seconds that one question may take, and the most pairs for which a second solution and an explicit proof are asked for.
 const MOST_SECONDS = 60;
 const MOST_PAIRS = 120;
 
@@ -125,9 +125,7 @@ async function decide() {
     if (pairs.length <= MOST_PAIRS) await ask("proof", ["-", "--proof", "-", "--solutions=off"]);
     if ((report.solutions?.at_least ?? 1) > 1 && pairs.length <= MOST_PAIRS) {
       status("Decided. The other solution is being looked for …");
-      await ask("report", ["--json", "--components", "--solutions=full", "-"]);
       await ask("witness", ["witness", "-", "-"]);
-      await ask("scene", ["witness", "--oriented", "-", "-"]);
     }
     if (!current()) return;
     status("Decided. Its page is being written, by Python; the first time takes some seconds …");

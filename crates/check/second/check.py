@@ -5,7 +5,7 @@ It shares no code, language, arithmetic, parser or dependency with the first one
 read: a file is a section of that page, each function the list of conditions of one part of it, in the page's order,
 and names the section. Each file builds on those before it: notation (1), graphs (2), document (3), draws (4),
 elimination and matrices (7), cores (6), lower (7), bodies (5), upper (7), pieces (6, 7, 9), claim (8), solutions (12),
-oriented (12), base lines (13), here (14), intrinsics (15).
+base lines (13), here (14), intrinsics (15).
 Whatever is not shown to be right is rejected: an exception that nobody foresaw is a rejection as well.
 """
 
@@ -51,7 +51,7 @@ class Check(BaseLines):
         number = []
         if numbers:
             at_most = "no upper bound" if numbers["at_most"] is None else f"at most {numbers['at_most']}"
-            number.append(f"solutions: at least {numbers['at_least']}, {at_most} ({strength(numbers)}){shown_oriented(numbers)}")
+            number.append(f"solutions: at least {numbers['at_least']}, {at_most} ({strength(numbers)})")
         parts = [f"known parts: {len(self.parts)}, taken for given"] if self.parts else []
         return [
             f"graph: {graph.n} nodes, {len(graph.edges)} edges, SHA-256 {graph.hash.hex()}",
@@ -103,12 +103,6 @@ def need_named(done, given_data, model=None, classes_hash=None, centres_hash=Non
     centres, classes = (getattr(done, name).hex() if hasattr(done, name) else None for name in ("centres_hash", "classes_hash"))
     need(centres == centres_hash, "section 3: the given cameras are not those that are named, by their hash")
     need(classes == classes_hash, "section 3: the classes of cameras are not those that are named, by their hash")
-
-
-def shown_oriented(numbers):
-    """How many solutions are real, and how many of these oriented, at places that were found."""
-    seen = [f"{oriented} of {real}" for real, oriented in numbers.get("oriented", [])]
-    return f", real ones that are oriented, near some cameras: {', '.join(seen)}" * bool(seen)
 
 
 def shown(reason):

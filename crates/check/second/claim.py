@@ -1,8 +1,7 @@
 """Section 8 of docs/certificate.md: the claim that evidence gives."""
 
 from cores import count_components
-from notation import a_list, an_int, need, same, written
-from oriented import check_oriented
+from notation import need, same, written
 from pieces import Pieces
 from solutions import Meter, check_solutions
 
@@ -22,7 +21,7 @@ class Claims(Pieces):
     """Section 8: what follows from all pieces, to be compared with what is claimed."""
 
     def count_solutions(self, value, pieces, found):
-        """Section 12: at_least, at_most and, if it is shown, oriented; the graph is finite solvable and is one piece that is no member."""
+        """Section 12: at_least and at_most; the graph is finite solvable and is one piece that is no member."""
         where = "section 12"
         need(self.projective, f"{where}: projective model only")
         whole = len(found) == len(pieces) == 1 and found[0].nodes == self.graph.n
@@ -31,19 +30,7 @@ class Claims(Pieces):
         group = self.read_group(pieces[0]["bodies"], pieces[0]["edges"], where)
         need(all(map(self.is_unique, group)), f"{where}: a body by rank is not shown to be unique")
         sets = [frozenset(self.nodes(member)) for member in group]
-        meter, own = Meter(self.work_limit), dict(value) if type(value) is dict else value
-        oriented = [own.pop("oriented")] if type(value) is dict and "oriented" in value else []
-        numbers = check_solutions(own, sets, where, meter)
-        claims = "oriented" in self.claim["solutions"]
-        need(claims == bool(oriented), f"{where}: claim and document have oriented, or neither has")
-        if not oriented:
-            return *numbers, {}
-        need(not self.parts, f"{where}: oriented solutions, and known parts")
-        claimed = a_list(self.claim["solutions"]["oriented"], f"{where}: claim: oriented")
-        for k in (k for pair in claimed for k in a_list(pair, f"{where}: claim: oriented")):
-            an_int(k, f"{where}: claim: oriented")
-        found = check_oriented(*oriented, sets, self.graph.n, numbers, f"{where}: oriented", meter)
-        return *numbers, {"oriented": found}
+        return check_solutions(value, sets, where, Meter(self.work_limit))
 
     def claim_of(self, pieces, singles, numbers=None):
         """Section 8: the claim that the evidence gives; `numbers` are those of solutions, if they are bounded."""
@@ -75,8 +62,8 @@ class Claims(Pieces):
         components = stated(count, bound_sum(errors) if errors else None)
         claim = {"verdict": verdict, "rank": {**rank, "required": required}, "components": components}
         if numbers is not None:
-            least, most = map(written, numbers[:2])
-            claim["solutions"] = {"at_least": least, "at_most": most, **numbers[2], "strength": "proof", "error_log2": None}
+            least, most = map(written, numbers)
+            claim["solutions"] = {"at_least": least, "at_most": most, "strength": "proof", "error_log2": None}
         return claim
 
     def compare_claim(self):

@@ -153,8 +153,7 @@ class Document:
         own["base_lines"] = "value at_least at_most required about_one_axis"
         for name, part in zip(parts, claim):
             where = f"section 3: {name}"
-            more = " oriented" * (name == "solutions" and type(part) is dict and "oriented" in part)
-            *values, strength, error = members(part, own.get(name, "value") + more + " strength error_log2", where)
+            *values, strength, error = members(part, own.get(name, "value") + " strength error_log2", where)
             if name == "verdict":
                 known = values[0] in ("solvable", "finite-solvable", "not-finite-solvable")
                 need(known, f"{where}: no such value")

@@ -42,7 +42,6 @@ objects! {
     ComponentsClaim { value: usize, strength: String, error_log2: Option<i64> }
     SolutionsClaim {
         at_least: Number, at_most: Option<Number>, strength: String, error_log2: Option<i64>,
-        oriented: Optional<Vec<[usize; 2]>>,
     }
     Body { seed: Seed, add: Vec<[u32; 3]>, merge: Vec<Merge> }
     Merge { with: Vec<Source>, at: Vec<u32> }

@@ -240,8 +240,15 @@ pub(crate) fn fill<'de, A: MapAccess<'de>, T: Value>(
     Ok(())
 }
 
+/// Evidence that was moved to the laboratory, as the member or the `kind` that it was.
+const LABORATORY: [&str; 1] = ["oriented"];
+
 pub(crate) fn unknown<E: Error>(name: &str) -> E {
-    Error::custom(format!("the member `{name}` does not belong there"))
+    Error::custom(if LABORATORY.contains(&name) {
+        format!("evidence `{name}` belongs to the laboratory: this checker does not verify it")
+    } else {
+        format!("the member `{name}` does not belong there")
+    })
 }
 
 /// The value of a member, which must be there unless it is optional.

@@ -204,7 +204,7 @@ impl Certificate {
             &structure.everything,
         )?;
         let evidence = document.solutions.0.as_ref().map(|evidence| {
-            let members = (&structure.everything, name.nodes, parts.len());
+            let members = (&structure.everything, name.nodes);
             let count = solutions::check(evidence, structure, &pieces, members);
             count.within(|| "solutions".into())
         });

@@ -9,7 +9,6 @@ mod conditions;
 mod displacements;
 mod here;
 mod intrinsics;
-mod oriented;
 mod overlap;
 mod parts;
 mod points;

@@ -100,11 +100,23 @@ fn members_are_unique() {
     assert!(reason.starts_with(wanted), "{reason}");
 }
 
+/// Which solutions are oriented was evidence once.
+#[test]
+fn what_the_laboratory_has_is_refused_by_name() {
+    let wanted = "evidence `oriented` belongs to the laboratory: this checker does not verify it";
+    for place in ["/solutions/oriented", "/claim/solutions/oriented"] {
+        let (object, _) = place.rsplit_once('/').unwrap();
+        let mut text = text_of("two");
+        text.pointer_mut(object).unwrap()["oriented"] = json!([]);
+        let error = check(text.to_string().as_bytes(), None).unwrap_err();
+        assert!(error.to_string().contains(wanted), "{place}: {error}");
+    }
+}
+
 #[test]
 fn all_are_verified() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/solutions");
-    // One more is that of `oriented.rs`.
-    assert_eq!(fs::read_dir(folder).unwrap().count(), 15);
+    assert_eq!(fs::read_dir(folder).unwrap().count(), 14);
     for (name, solutions) in [
         ("linear", 1),
         ("part", 1),
@@ -127,7 +139,6 @@ fn all_are_verified() {
         let exactly = Count {
             at_least: Number::from(solutions),
             at_most: Some(Number::from(solutions)),
-            oriented: None,
         };
         assert_eq!(verified.solutions, Some(exactly), "{name}");
         let solvable = verified.verdict.0 == Verdict::Solvable;

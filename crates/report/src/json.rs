@@ -211,15 +211,6 @@ struct SolutionsLine {
     strength: &'static str,
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     full_may_tell_more: bool,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    oriented: Vec<OrientedLine>,
-}
-
-/// How many solutions are real, and oriented, near some cameras.
-#[derive(Serialize)]
-struct OrientedLine {
-    real: usize,
-    oriented: usize,
 }
 
 impl From<&SolutionCount> for SolutionsLine {
@@ -230,11 +221,6 @@ impl From<&SolutionCount> for SolutionsLine {
             at_most: count.at_most.clone(),
             strength: count.strength().name(),
             full_may_tell_more: count.full_may_tell_more,
-            oriented: count
-                .oriented()
-                .into_iter()
-                .map(|[real, oriented]| OrientedLine { real, oriented })
-                .collect(),
         }
     }
 }

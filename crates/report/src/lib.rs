@@ -31,7 +31,6 @@ pub mod priors;
 pub mod read;
 #[cfg(feature = "audit")]
 pub mod rulings;
-pub mod second_scene;
 pub mod sheet;
 mod shown;
 pub mod split;

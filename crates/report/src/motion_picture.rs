@@ -7,8 +7,8 @@
 
 use super::counted;
 use super::here::HereReport;
-use super::second_scene::labels;
 use super::svg::{COLOURS, Svg};
+use super::witness_file::labels;
 use std::fmt::Write;
 use viewcert::here::Motion;
 use viewcert::linalg::integer::Integer;

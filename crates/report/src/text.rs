@@ -48,9 +48,6 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
         let hint = "--solutions=full may tell how many solutions, in about a second";
         writeln!(out, "  hint        {hint}")?;
     }
-    if let Some(words) = verdict.solutions.as_ref().and_then(oriented) {
-        writeln!(out, "  oriented    {words}")?;
-    }
     for condition in report.scope.conditions() {
         writeln!(out, "  condition   {condition}")?;
     }
@@ -75,19 +72,6 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
         here.write_text(out, report.list_components)?;
     }
     writeln!(out, "  time        {}", seconds(report.time.as_micros()))
-}
-
-/// How many solutions are of a scene in front of its cameras, where that was looked for.
-fn oriented(count: &SolutionCount) -> Option<String> {
-    let places = count.oriented();
-    let of = places.iter().map(|[real, of]| format!("{of} of {real}"));
-    let first = of.clone().next()?;
-    let others = of.skip(1).map(|of| format!(", {of} near others"));
-    let others: String = others.collect();
-    let proved = strength(count.strength());
-    Some(format!(
-        "{first} real solutions near some cameras{others} ({proved})"
-    ))
 }
 
 /// Writes the components of a verdict.

@@ -10,6 +10,7 @@ pub mod oriented;
 pub mod publish;
 pub mod published;
 pub mod random;
+pub mod scenes;
 pub mod solutions;
 pub mod thin;
 pub mod tolerances;

@@ -2,7 +2,7 @@
 //! solutions.
 
 use super::sizes;
-use crate::oriented::{Tally, tally};
+use crate::oriented::tally::{Tally, tally};
 use crate::solutions::Source;
 use anyhow::{Context, Result};
 use clap::Args;

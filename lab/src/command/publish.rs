@@ -203,7 +203,7 @@ impl Counts {
 /// is decided anew modulo the default prime. Which solutions are oriented is not looked for: it would be most
 /// of the published certificates, and one command finds it.
 fn decide_small(graph: &Graph, watch: &Watch) -> Result<Verdict, VerdictError> {
-    let options = options(CountSolutions::Number, watch.clone());
+    let options = options(CountSolutions::Full, watch.clone());
     let small = PrimeField::new(PRIME).map_or_else(
         |_| options.clone(),
         |field| options.clone().prime(Prime::Fixed(field)),
@@ -287,7 +287,7 @@ fn certify(out: &mut Files, nodes: usize, progress: &Progress) -> Result<(Counts
 fn list(out: &mut Files, nodes: usize, count: bool, progress: &Progress) -> Result<Counts> {
     let options = options(
         if count {
-            CountSolutions::Number
+            CountSolutions::Full
         } else {
             CountSolutions::Off
         },

@@ -101,7 +101,7 @@ fn of_graph(
 ) -> Result<Vec<Row>, VerdictError> {
     let options = Options::default()
         .seed(arguments.seed)
-        .question(Projective::with_solutions(CountSolutions::Number))
+        .question(Projective::with_solutions(CountSolutions::Full))
         .watch(session.watch());
     let progress = session.progress("pieces", Some(u64::from(arguments.pieces)));
     let rows: Vec<Option<Row>> = (0..arguments.pieces)

@@ -84,7 +84,7 @@ from ._studies import (
     models,
 )
 from ._verdict import BaseLines, Joint, Planar, Solutions, Verdict, verify
-from ._witness import SecondScene, Witness, fundamental_matrix, witness
+from ._witness import Witness, fundamental_matrix, witness
 
 __all__ = [
     "Archive",
@@ -116,7 +116,6 @@ __all__ = [
     "Priors",
     "Rejected",
     "Ruling",
-    "SecondScene",
     "SingularValue",
     "Solutions",
     "Special",

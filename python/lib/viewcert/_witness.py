@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, field
-from fractions import Fraction
-from typing import Any, Dict, Generic, List, Literal, Optional, Tuple, overload
+from dataclasses import dataclass
+from typing import Any, Dict, Generic, List, Optional, Tuple, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -121,105 +120,6 @@ class Witness(Generic[N]):
         return f"<viewcert.Witness: two solutions of {len(self.nodes)} cameras modulo {self.prime}>"
 
 
-@dataclass(frozen=True, eq=False)
-class SecondScene(Generic[N]):
-    """A scene, and another one with the same images in front of other cameras, exactly.
-
-    The cameras of the first are ``[ I | -c ]`` at integer centres c. The entries of the second ones are
-    polynomials in one root of a polynomial with integer coefficients, the eliminant; where that is linear they
-    are fractions.
-
-    Attributes
-    ----------
-    nodes : tuple
-        The nodes, in the order of the cameras.
-    centres : numpy.ndarray
-        The centres of the first scene, integers of shape (n, 3).
-    eliminant : tuple of int
-        Its coefficients, from the constant one up.
-    between : tuple of Fraction
-        Two fractions between which just one of its roots lies: the one that is meant.
-    polynomials : numpy.ndarray
-        Of shape (n, 3, 4): the coefficients of each entry of the second cameras, from the constant one up.
-    plane : tuple of int
-        The plane at infinity of the second scene: a . X > 0 for what is in front.
-    picture : str, optional
-        Both scenes as SVG, where they are near enough to each other to be drawn.
-    """
-
-    nodes: Tuple[N, ...]
-    centres: NDArray[np.int64]
-    eliminant: Tuple[int, ...]
-    between: Tuple[Fraction, Fraction]
-    polynomials: Exact = field(repr=False)
-    plane: Tuple[int, int, int, int]
-    picture: Optional[str] = field(repr=False)
-
-    @property
-    def first(self) -> NDArray[np.int64]:
-        """The first cameras, of shape (n, 3, 4)."""
-        unit = np.broadcast_to(np.eye(3, dtype=np.int64), (len(self.nodes), 3, 3))
-        return np.concatenate([unit, -self.centres[:, :, None]], axis=2)
-
-    @property
-    def is_rational(self) -> bool:
-        """Whether the second cameras have rational entries."""
-        return len(self.eliminant) == 2
-
-    def root(self, bits: int = 128) -> Fraction:
-        """The root, if it is rational; otherwise a fraction within ``2**-bits`` of it."""
-        if self.is_rational:
-            return Fraction(-self.eliminant[0], self.eliminant[1])
-        low, high = self.between
-        sign = _value(self.eliminant, low) < 0
-        while high - low > Fraction(1, 2**bits):
-            middle = (low + high) / 2
-            value = _value(self.eliminant, middle)
-            if value == 0:
-                return middle
-            if (value < 0) == sign:
-                low = middle
-            else:
-                high = middle
-        return low
-
-    def second(self, bits: int = 128) -> Exact:
-        """The second cameras as fractions, of shape (n, 3, 4): exact if :attr:`is_rational`, otherwise at a
-        fraction within ``2**-bits`` of the root."""
-        at = self.root(bits)
-        found = np.empty((len(self.nodes), 3, 4), dtype=object)
-        for place in np.ndindex(found.shape):
-            found[place] = _value(self.polynomials[place], at)
-        return found
-
-    def floats(self, bits: int = 256) -> Tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Both families of cameras in floating point, each camera of Frobenius norm 1: entries are those of
-        :meth:`second`, rounded."""
-        return _floats(self.first.astype(object)), _floats(self.second(bits))
-
-    def fundamental(self, a: N, b: N, bits: int = 128) -> Tuple[Exact, Exact]:
-        """The fundamental matrices of two nodes in both scenes: of integers, and of fractions as in
-        :meth:`second`. Of pairs of the graph they are the same up to a factor.
-
-        Raises
-        ------
-        InputError
-            If one is no node.
-        """
-        i, j = (_place(self.nodes, node) for node in (a, b))
-        at = self.root(bits)
-        second = [
-            np.array([[_value(entry, at) for entry in row] for row in self.polynomials[k]], dtype=object)
-            for k in (i, j)
-        ]
-        first = self.first
-        return fundamental_matrix(first[i], first[j]), fundamental_matrix(*second)
-
-    def __repr__(self) -> str:
-        kind = "rational" if self.is_rational else f"of degree {len(self.eliminant) - 1}"
-        return f"<viewcert.SecondScene: two scenes of {len(self.nodes)} cameras, the second {kind}>"
-
-
 def _place(nodes: Tuple[Any, ...], node: Any) -> int:
     try:
         return nodes.index(node)
@@ -227,60 +127,25 @@ def _place(nodes: Tuple[Any, ...], node: Any) -> int:
         raise Absent(f"{node!r} is no node of the graph") from None
 
 
-def _value(coefficients: Any, at: Fraction) -> Fraction:
-    found = Fraction(0)
-    for coefficient in reversed(coefficients):
-        found = found * at + coefficient
-    return found
-
-
-def _floats(cameras: Exact) -> NDArray[np.float64]:
-    """Rounded after each camera was brought to about the size of one: entries may be longer than floats."""
-    found = np.empty(cameras.shape)
-    for k, camera in enumerate(cameras):
-        largest = max(abs(x) for x in camera.ravel())
-        for place in np.ndindex(3, 4):
-            found[(k, *place)] = float(Fraction(camera[place]) / Fraction(largest))
-        found[k] /= np.linalg.norm(found[k])
-    return found
-
-
 @overload
-def witness(
-    verdict: Verdict[N], *, oriented: Literal[False] = ..., full: bool = ..., seed: Optional[int] = ...
-) -> Optional[Witness[N]]: ...
+def witness(verdict: Verdict[N], *, full: bool = ..., seed: Optional[int] = ...) -> Optional[Witness[N]]: ...
 @overload
-def witness(
-    verdict: Verdict[N], *, oriented: Literal[True], full: bool = ..., seed: Optional[int] = ...
-) -> Optional[SecondScene[N]]: ...
-@overload
-def witness(
-    verdict: Any, *, oriented: Literal[False] = ..., full: bool = ..., seed: Optional[int] = ...
-) -> Optional[Witness[Any]]: ...
-@overload
-def witness(
-    verdict: Any, *, oriented: Literal[True], full: bool = ..., seed: Optional[int] = ...
-) -> Optional[SecondScene[Any]]: ...
-def witness(
-    verdict: Any, *, oriented: bool = False, full: bool = False, seed: Optional[int] = None
-) -> Any:
+def witness(verdict: Any, *, full: bool = ..., seed: Optional[int] = ...) -> Optional[Witness[Any]]: ...
+def witness(verdict: Any, *, full: bool = False, seed: Optional[int] = None) -> Any:
     """Two sets of cameras that have the same fundamental matrices, of a graph with finitely many solutions.
 
     Parameters
     ----------
     verdict : Verdict
         Of the projective model. Or a graph, which is decided first.
-    oriented : bool
-        Whether two real scenes with the same images are wanted, both in front of their cameras, instead of
-        cameras modulo a prime.
     full : bool
-        Count solutions whatever it takes; `oriented` does so.
+        Count solutions whatever it takes.
     seed : int, optional
         The seed of the random cameras; by default that of the verdict.
 
     Returns
     -------
-    Witness, SecondScene or None
+    Witness or None
         None if there is one solution alone.
 
     Raises
@@ -319,37 +184,25 @@ def witness(
     wanted = dict(verdict._question["wanted"])
     seed = wanted["seed"] if seed is None else whole("seed", seed, 0, 2**64 - 1)
     native = verdict._native
-    whole_count = full or oriented
-    if (whole_count and wanted["solutions"] != "full") or wanted["solutions"] is None or seed != wanted["seed"]:
+    if (full and wanted["solutions"] != "full") or wanted["solutions"] is None or seed != wanted["seed"]:
         question = {name: value for name, value in verdict._question.items() if name != "wanted"}
-        wanted["solutions"] = "full" if whole_count else wanted["solutions"] or "quick"
+        wanted["solutions"] = "full" if full else wanted["solutions"] or "quick"
         wanted["seed"] = seed
         found = _native.decide(verdict.graph._native, wanted, **question)
     else:
         found = native.again() if isinstance(native, Kept) else native
-    text, picture, (why, words) = _native.witness(found, seed=seed, oriented=oriented)
+    text, (why, words) = _native.witness(found, seed=seed)
     if text is None:
         if why == "one":
             return None
-        advice = "" if whole_count else "; full=True counts whatever it takes"
+        advice = "" if full else "; full=True counts whatever it takes"
         raise Undecided(f"witness: {in_python(words)}{advice}")
     said: Dict[str, Any] = json.loads(text)
     nodes = tuple(verdict.graph.nodes)
-    if not oriented:
-        families = (np.array([[list(map(int, row)) for row in camera] for camera in said[name]], dtype=np.uint64)
-                    for name in ("first", "second"))
-        return Witness(int(said["prime"]), nodes, *families)
-    polynomials = np.empty((len(nodes), 3, 4), dtype=object)
-    for place in np.ndindex(polynomials.shape):
-        k, row, column = place
-        polynomials[place] = tuple(map(int, said["second"][k][row][column]))
-    low, high, below = map(int, said["between"])
-    return SecondScene(
-        nodes=nodes,
-        centres=np.array(said["centres"], dtype=np.int64),
-        eliminant=tuple(map(int, said["eliminant"])),
-        between=(Fraction(low, below), Fraction(high, below)),
-        polynomials=polynomials,
-        plane=tuple(said["plane"]),
-        picture=picture,
-    )
+    families = (np.array([[list(map(int, row)) for row in camera] for camera in said[name]], dtype=np.uint64)
+                for name in ("first", "second"))
+    return Witness(int(said["prime"]), nodes, *families)
+    said: Dict[str, Any] = json.loads(text)
+    families = (np.array([[list(map(int, row)) for row in camera] for camera in said[name]], dtype=np.uint64)
+                for name in ("first", "second"))
+    return Witness(int(said["prime"]), tuple(verdict.graph.nodes), *families)

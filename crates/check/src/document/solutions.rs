@@ -1,22 +1,12 @@
 //! The text of section 12 as typed values.
 
-use crate::json::{Big, Digits, Optional, Value, any_members, objects, present};
-use num_bigint::BigInt;
+use crate::json::{Big, Optional, Value, any_members, objects, present};
 use serde::de::{Deserializer, Error};
 
 objects! {
     Solutions {
         merges: Vec<Merge>, upper: Option<Upper>, lower: Option<Lower>,
-        product: Optional<Vec<Factor>>, oriented: Optional<Oriented>,
-    }
-    Oriented { members: Vec<Vec<u32>>, places: Vec<Place> }
-    Place {
-        centres: Vec<[Big<BigInt>; 3]>, eliminant: Vec<Big<BigInt>>,
-        cameras: Vec<[Vec<Big<BigInt>>; 12]>, prime: Big<u64>, residues: Vec<Big<u64>>,
-        roots: Vec<Root>,
-    }
-    Root {
-        between: [Big<BigInt>; 3], plane: Option<[Big<BigInt>; 4]>, five: Option<[u32; 5]>,
+        product: Optional<Vec<Factor>>,
     }
     Factor { with: Vec<usize>, solutions: Box<Solutions>, rigid: Option<Rigid> }
     Rigid { chart: Chart, centres: Centres }
@@ -46,10 +36,6 @@ objects! {
     }
     Spurious { values: Vec<Option<Big<u64>>>, steps: Vec<Step> }
     Point { values: Vec<Big<u64>>, steps: Vec<Step> }
-}
-
-impl Digits for BigInt {
-    const MOST: usize = 100_000;
 }
 
 impl<T: Value> Value for Box<T> {

@@ -6,7 +6,6 @@
 //! make unknowns known (`linear`; `support`, of `minors` and their `zeros`) and from the points that
 //! solutions are near to (`points`, less those `outside` and `spurious`), a lower one from simple points (`simple`) of a tight core or with `relations`.
 //! What hangs together in a few nodes only is bounded apart, and numbers multiply (`product`).
-//! Which solutions are real and in front of the cameras is `oriented`, by signs of `polynomial`s.
 //! `dense` has the linear algebra; the text is `document::solutions`.
 
 mod chart;
@@ -14,10 +13,8 @@ mod dense;
 mod linear;
 mod members;
 mod minors;
-mod oriented;
 mod outside;
 mod points;
-mod polynomial;
 mod product;
 mod relations;
 mod simple;
@@ -44,8 +41,6 @@ pub struct Count {
     pub at_least: Number,
     /// There are no more, if that was shown.
     pub at_most: Option<Number>,
-    /// Of how many real solutions how many are oriented, at places that were found, if they were.
-    pub oriented: Option<Vec<[usize; 2]>>,
 }
 
 impl Count {
@@ -61,13 +56,7 @@ impl fmt::Display for Count {
             (least, Some(most)) if least == most => write!(f, "exactly {least}"),
             (least, Some(most)) => write!(f, "{least} to {most}"),
             (least, None) => write!(f, "at least {least}"),
-        }?;
-        let Some(oriented) = &self.oriented else {
-            return Ok(());
-        };
-        let of = oriented.iter().map(|[real, of]| format!("{of} of {real}"));
-        let of = of.collect::<Vec<_>>().join(", ");
-        write!(f, ", real ones that are oriented, near some cameras: {of}")
+        }
     }
 }
 
@@ -77,7 +66,7 @@ pub(crate) fn check(
     evidence: &Solutions,
     structure: &Structure,
     pieces: &[Piece],
-    (members, all, parts): (&Part, usize, usize),
+    (members, all): (&Part, usize),
 ) -> Checked<Count> {
     let is_finite = |piece: &Piece| {
         let required = structure.setting.model.required(piece.nodes);
@@ -97,21 +86,7 @@ pub(crate) fn check(
         .map(|&member| structure.nodes_of(member).to_vec());
     let nodes: Vec<Vec<u32>> = nodes.collect();
     let meter = structure.setting.meter;
-    let found = bounds(evidence, Members::new(nodes.clone()), meter, Of::Graph)?;
-    let Some(oriented) = &evidence.oriented.0 else {
-        return Ok(found);
-    };
-    ensure!(parts == 0, "oriented solutions, and known parts");
-    ensure!(
-        found.at_most.as_ref() == Some(&found.at_least),
-        "oriented solutions, of which the number is not shown"
-    );
-    let number = found.at_least.to_string().parse().unwrap_or(u64::MAX);
-    let numbers = oriented::check(oriented, &nodes, (all, number), meter);
-    Ok(Count {
-        oriented: Some(numbers.within(|| "oriented".into())?),
-        ..found
-    })
+    bounds(evidence, Members::new(nodes), meter, Of::Graph)
 }
 
 /// What the evidence is about.
@@ -134,10 +109,6 @@ fn bounds(evidence: &Solutions, mut members: Members, meter: &Meter, of: Of) -> 
     ensure!(
         of != Of::Part || evidence.product.0.is_none(),
         "a product for a part, of which one solution is to be shown"
-    );
-    ensure!(
-        of == Of::Graph || evidence.oriented.0.is_none(),
-        "oriented solutions, and not of the whole graph"
     );
     for (k, merge) in evidence.merges.iter().enumerate() {
         let merged = members.merge(merge, meter);
@@ -171,7 +142,6 @@ fn of_core(evidence: &Solutions, left: &[Vec<u32>], meter: &Meter, of: Of) -> Ch
         return Ok(Count {
             at_least: Number::from(1),
             at_most: Some(Number::from(1)),
-            oriented: None,
         });
     }
     ensure!(
@@ -190,7 +160,6 @@ fn of_core(evidence: &Solutions, left: &[Vec<u32>], meter: &Meter, of: Of) -> Ch
     Ok(Count {
         at_least: Number::from(at_least.transpose()?.unwrap_or(1) as u64),
         at_most: at_most.map(|most| Number::from(most as u64)),
-        oriented: None,
     })
 }
 

@@ -45,11 +45,7 @@ pub(super) fn check(factors: &[Factor], members: &Members, meter: &Meter) -> Che
         at_least = at_least.times(&found.at_least);
         at_most = most.map(|(product, most)| product.times(&most));
     }
-    Ok(Count {
-        at_least,
-        at_most,
-        oriented: None,
-    })
+    Ok(Count { at_least, at_most })
 }
 
 /// (S24) for one factor.

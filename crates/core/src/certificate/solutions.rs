@@ -7,10 +7,9 @@
 use super::objects::{Big, bigs, objects};
 use crate::decide::{Value, Verdict};
 use crate::geometry::model::Model;
-use crate::linalg::integer::Integer;
 use crate::solutions::{
-    AtMost, Chart, Factor, Interval, Limit, Linear, Lower, Merge, Minor, Number, One, Oriented,
-    Outside, Part, Place, Relation, Root, Rule, Scene, Solutions, Spurious, Standing, Upper,
+    AtMost, Chart, Factor, Limit, Linear, Lower, Merge, Minor, Number, One, Outside, Part, Place,
+    Relation, Rule, Solutions, Spurious, Upper,
 };
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
@@ -37,34 +36,13 @@ objects! {
         at_most: Option<Number>,
         strength: &'static str,
         error_log2: Option<i64>,
-        ; optional oriented: Vec<[usize; 2]>
     }
 
     SolutionsView<'a> {
         merges: Vec<MergeView<'a>>,
         upper: Option<UpperView<'a>>,
         lower: Option<LowerView<'a>>,
-        ; optional product: Vec<FactorView<'a>>, oriented: OrientedView<'a>
-    }
-
-    OrientedView<'a> {
-        members: &'a [Vec<u32>],
-        places: Vec<SceneView<'a>>,
-    }
-
-    SceneView<'a> {
-        centres: Vec<[Big<i64>; 3]>,
-        eliminant: Vec<Big<&'a Integer>>,
-        cameras: Vec<Vec<Vec<Big<&'a Integer>>>>,
-        prime: Big<u64>,
-        residues: Vec<Big<&'a u64>>,
-        roots: Vec<RootView<'a>>,
-    }
-
-    RootView<'a> {
-        between: [Big<&'a Integer>; 3],
-        plane: Option<[Big<i64>; 4]>,
-        five: Option<[u32; 5]>,
+        ; optional product: Vec<FactorView<'a>>
     }
 
     FactorView<'a> {
@@ -202,7 +180,6 @@ pub(super) fn view<'a>(
         at_most: solutions.at_most.clone(),
         strength: "proof",
         error_log2: None,
-        oriented: solutions.oriented.as_ref().map(Oriented::numbers),
     };
     Ok(Some((claimed, view)))
 }
@@ -246,7 +223,6 @@ impl Live {
             upper: upper.map(UpperView::new),
             lower: lower.map(LowerView::new),
             product: (!factors.is_empty()).then_some(factors),
-            oriented: solutions.oriented.as_ref().map(OrientedView::new),
         })
     }
 
@@ -347,52 +323,6 @@ fn shared(mut members: Vec<Vec<u32>>) -> Vec<Vec<u32>> {
         member.sort_unstable();
     }
     members
-}
-
-impl<'a> OrientedView<'a> {
-    fn new(oriented: &'a Oriented) -> Self {
-        Self {
-            members: &oriented.members,
-            places: oriented.places.iter().map(SceneView::new).collect(),
-        }
-    }
-}
-
-impl<'a> SceneView<'a> {
-    fn new(scene: &'a Scene) -> Self {
-        let camera = |camera: &'a [[Vec<Integer>; 4]; 3]| {
-            let entries = camera.iter().flatten();
-            entries.map(|entry| bigs(entry)).collect()
-        };
-        Self {
-            centres: scene.centres.iter().map(|c| c.map(Big)).collect(),
-            eliminant: bigs(&scene.eliminant),
-            cameras: scene.cameras.iter().map(camera).collect(),
-            prime: Big(scene.prime),
-            residues: bigs(&scene.residues),
-            roots: scene.roots.iter().map(RootView::new).collect(),
-        }
-    }
-}
-
-impl<'a> RootView<'a> {
-    fn new(root: &'a Root) -> Self {
-        let Interval {
-            from,
-            to,
-            denominator,
-        } = &root.between;
-        let (plane, five) = match root.standing {
-            Standing::Against => (None, None),
-            Standing::NoPlane(five) => (None, Some(five)),
-            Standing::Oriented(plane) => (Some(plane.map(Big)), None),
-        };
-        Self {
-            between: [from, to, denominator].map(Big),
-            plane,
-            five,
-        }
-    }
 }
 
 impl<'a> ChartView<'a> {

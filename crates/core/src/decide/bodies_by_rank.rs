@@ -49,7 +49,7 @@ pub(super) fn extend(
             method: Method::Bodies(bodies),
             arithmetic: Arithmetic::Prime,
             ..
-        }) if !matches!(bodies.solutions, CountSolutions::Full | CountSolutions::Number)
+        }) if bodies.solutions != CountSolutions::Full
     );
     let mut size = REGION;
     while is_wanted && size <= LARGEST_REGION && may_be_large(&contraction) {

@@ -22,7 +22,7 @@ pub struct Draft {
     /// Whether to look for proofs by counting.
     pub counting: bool,
     /// How much to spend on the number of solutions. Where there is at most one solution, or none is
-    /// counted, all but [`CountSolutions::Full`] and [`CountSolutions::Number`] mean the same.
+    /// counted, all but [`CountSolutions::Full`] mean the same.
     pub solutions: CountSolutions,
     /// What is known beside the pairs.
     pub known: Known,
@@ -119,10 +119,7 @@ impl Draft {
         let is_projective = model == Model::Projective;
         let rational = self.arithmetic != Arithmetic::Prime;
         let displacements = matches!(self.known, Known::Displacements(_));
-        let full = matches!(
-            self.solutions,
-            CountSolutions::Full | CountSolutions::Number
-        );
+        let full = matches!(self.solutions, CountSolutions::Full);
         let wrong = [
             (rational && !is_projective, Meaningless::Rational(model)),
             (

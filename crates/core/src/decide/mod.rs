@@ -268,13 +268,7 @@ impl Found<'_> {
             Value::FiniteSolvable => {
                 let effort = self.effort(contraction);
                 let (bodies, edges) = (&contraction.finals, &contraction.loose);
-                let mut count = self.count(contraction, bodies, edges, effort)?;
-                if effort == CountSolutions::Full && self.known_parts.is_empty() {
-                    let members = nodes_of(contraction, bodies, edges);
-                    let task = self.options.watch.task(Step::Solutions, self.graph.nodes());
-                    count.look_for_oriented(self.graph, &members, self.options.seed, &task)?;
-                }
-                Some(count)
+                Some(self.count(contraction, bodies, edges, effort)?)
             }
             Value::NotFiniteSolvable => None,
         })

@@ -106,11 +106,8 @@ pub enum CountSolutions {
     #[default]
     Quick,
     /// Solutions are counted whatever it takes: minutes, where many nodes are shared. They are
-    /// counted between unique members, so large cores are decided without bodies by rank. Which of
-    /// several are real and oriented is looked for as well.
+    /// counted between unique members, so large cores are decided without bodies by rank.
     Full,
-    /// As [`Full`](Self::Full), the number alone.
-    Number,
 }
 
 impl Question {

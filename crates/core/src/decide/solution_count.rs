@@ -7,8 +7,8 @@
 use crate::decide::claim::Strength;
 use crate::decide::question::CountSolutions;
 use crate::graph::Graph;
-use crate::solutions::{Effort, Number, Oriented, Plan, Search, Size, Solutions, count_in};
-use crate::watch::{Step, Stopped, Task};
+use crate::solutions::{Effort, Number, Plan, Size, Solutions, count_in};
+use crate::watch::{Stopped, Task};
 use std::fmt;
 use std::sync::Arc;
 
@@ -61,7 +61,7 @@ impl SolutionCount {
     ) -> Result<Self, Stopped> {
         let plan = Plan {
             effort: match effort {
-                CountSolutions::Full | CountSolutions::Number => Effort::FULL,
+                CountSolutions::Full => Effort::FULL,
                 CountSolutions::Off | CountSolutions::Quick => Effort::default(),
             },
             quick: (effort == CountSolutions::Quick).then_some(QUICK),
@@ -69,7 +69,7 @@ impl SolutionCount {
         };
         let (found, left_out) = match effort {
             CountSolutions::Off => (None, false),
-            CountSolutions::Quick | CountSolutions::Full | CountSolutions::Number => {
+            CountSolutions::Quick | CountSolutions::Full => {
                 count_in(graph, members, plan, seed, task)?
             }
         };
@@ -81,40 +81,6 @@ impl SolutionCount {
             full_may_tell_more: left_out,
             evidence: found.map(Arc::new),
         })
-    }
-
-    /// Looks which solutions of a whole graph without known parts are real and oriented (Theorem 10.18 of
-    /// docs/theory.md), between the same members.
-    ///
-    /// # Errors
-    /// If the work is stopped.
-    pub(super) fn look_for_oriented(
-        &mut self,
-        graph: &Graph,
-        members: &[Vec<u32>],
-        seed: u64,
-        task: &Task<'_>,
-    ) -> Result<(), Stopped> {
-        let Some(evidence) = &mut self.evidence else {
-            return Ok(());
-        };
-        let work = task.at(Step::Solutions).begin(0);
-        let search = Search::between(graph, members, evidence, seed);
-        let found = search.and_then(|search| search.places(&work));
-        work.done(0)?;
-        if found.is_some() {
-            Arc::make_mut(evidence).oriented = found;
-        }
-        Ok(())
-    }
-
-    /// Of the solutions how many are real, and how many of these are of a scene in front of its cameras,
-    /// where places with these numbers were found: an increasing list of such pairs. Each occurs on an
-    /// open set of cameras; others may occur as well.
-    pub fn oriented(&self) -> Vec<[usize; 2]> {
-        let evidence = self.evidence.as_ref();
-        let oriented = evidence.and_then(|evidence| evidence.oriented.as_ref());
-        oriented.map(Oriented::numbers).unwrap_or_default()
     }
 
     /// The number of solutions, if it is known.

@@ -368,7 +368,7 @@ pub fn cameras_rational(
 ///
 /// # Errors
 /// The bound is too small for so many distinct centres.
-pub(crate) fn integer_centres(
+pub fn integer_centres(
     nodes: usize,
     bound: u64,
     key: &DrawKey,

@@ -277,10 +277,7 @@ impl System<'_> {
 /// Rational numbers with a common denominator that have the given residues, all
 /// numerators and the denominator at most sqrt(modulus / 2) in absolute value; `None` if
 /// there are none (Wang, Guy and Davenport, SIGSAM Bulletin 16, 1982).
-pub(crate) fn reconstruct(
-    residues: &[Integer],
-    modulus: &Integer,
-) -> Option<(Vec<Integer>, Integer)> {
+pub fn reconstruct(residues: &[Integer], modulus: &Integer) -> Option<(Vec<Integer>, Integer)> {
     let half = modulus.bits().saturating_sub(2) / 2;
     // A residue times the denominator found so far is most often a small integer.
     let mut denominator = Integer::one();

@@ -13,7 +13,7 @@ mod product;
 pub mod rational;
 #[cfg(test)]
 mod samples;
-pub(crate) mod span;
+pub mod span;
 pub mod sparse_lu;
 pub mod textbook;
 

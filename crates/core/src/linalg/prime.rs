@@ -255,13 +255,15 @@ impl PrimeField {
         u128::from(high) << 64 | acc & u128::from(u64::MAX)
     }
 
+    /// `a b`, of words that stand for residues.
     #[inline(always)]
-    pub(crate) fn times(&self, a: u64, b: u64) -> u64 {
+    pub fn times(&self, a: u64, b: u64) -> u64 {
         self.redc(u128::from(a) * u128::from(b))
     }
 
+    /// `a + b`, likewise.
     #[inline(always)]
-    pub(crate) fn plus(&self, a: u64, b: u64) -> u64 {
+    pub fn plus(&self, a: u64, b: u64) -> u64 {
         let sum = a + b;
         sum.min(sum.wrapping_sub(self.p))
     }
@@ -272,13 +274,14 @@ impl PrimeField {
         difference.min(difference.wrapping_add(self.p))
     }
 
+    /// `-a`, likewise.
     #[inline(always)]
-    pub(crate) fn negate(&self, a: u64) -> u64 {
+    pub fn negate(&self, a: u64) -> u64 {
         self.minus(0, a)
     }
 
     /// The inverse by the extended Euclidean algorithm; `None` for zero.
-    pub(crate) fn inverse(&self, a: u64) -> Option<u64> {
+    pub fn inverse(&self, a: u64) -> Option<u64> {
         if a == 0 {
             return None;
         }
@@ -342,7 +345,7 @@ impl PrimeField {
 
     /// `y[k] += a x[k]` for every k. The shorter slice counts.
     #[inline]
-    pub(crate) fn axpy(&self, y: &mut [u64], a: u64, x: &[u64]) {
+    pub fn axpy(&self, y: &mut [u64], a: u64, x: &[u64]) {
         for (y, &x) in y.iter_mut().zip(x) {
             *y = self.plus(*y, self.times(a, x));
         }

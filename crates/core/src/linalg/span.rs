@@ -4,7 +4,7 @@ use crate::linalg::prime::PrimeField;
 
 /// A subspace of F_p^k, by a basis in echelon form; it remembers which vectors it holds.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Span {
+pub struct Span {
     /// Each vector is one at its pivot, where the vectors after it are zero.
     basis: Vec<Vec<u64>>,
     pivots: Vec<usize>,
@@ -20,7 +20,7 @@ impl Span {
     }
 
     /// The columns of the pivots, in the order in which their vectors came.
-    pub(crate) fn pivots(&self) -> &[usize] {
+    pub fn pivots(&self) -> &[usize] {
         &self.pivots
     }
 
@@ -42,7 +42,7 @@ impl Span {
     }
 
     /// Adds a vector; returns whether the dimension has grown. O(dimension * length).
-    pub(crate) fn insert(&mut self, field: &PrimeField, mut vector: Vec<u64>) -> bool {
+    pub fn insert(&mut self, field: &PrimeField, mut vector: Vec<u64>) -> bool {
         self.take(field, &mut vector)
     }
 

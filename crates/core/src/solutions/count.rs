@@ -522,7 +522,6 @@ impl Solutions {
             lower: None,
             product: Vec::new(),
             excess,
-            oriented: None,
         }
     }
 

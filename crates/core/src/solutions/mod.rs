@@ -7,8 +7,7 @@
 //! simple points of tight cores (`simple`, Theorem 10.10), or of others where equations repeat what others
 //! say (`relations`, Theorem 10.22). What hangs together in a few nodes only
 //! is counted apart, and numbers multiply (`product`, Corollary 10.17; `number`). Every bound is a
-//! proof; what it rests on is in `evidence`. A second solution can be looked at (`witness`), and which
-//! of several are real and in front of the cameras is found at integer centres (`oriented`).
+//! proof; what it rests on is in `evidence`. A second solution can be looked at (`witness`).
 
 mod balanced;
 mod chart;
@@ -19,7 +18,6 @@ mod linear;
 mod members;
 mod minors;
 mod number;
-mod oriented;
 mod outside;
 mod points;
 mod product;
@@ -37,11 +35,10 @@ mod zeros;
 pub use count::{Effort, count};
 pub(crate) use count::{Plan, Size, count_in};
 pub use evidence::{
-    AtMost, Chart, Factor, Interval, Limit, Linear, Lower, Merge, Minor, One, Oriented, Outside,
-    Part, Place, Relation, Root, Rule, Scale, Scene, Solutions, Spurious, Standing, Upper,
+    AtMost, Chart, Factor, Limit, Linear, Lower, Merge, Minor, One, Outside, Part, Place, Relation,
+    Rule, Scale, Solutions, Spurious, Upper,
 };
 pub use members::MOST_NODES;
 pub(crate) use members::nodes_of;
 pub use number::Number;
-pub use oriented::Search;
 pub use witness::Witness;

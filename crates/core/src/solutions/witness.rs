@@ -5,6 +5,7 @@
 //! nodes. The shared nodes get theirs from the kernel of N(u), by (10.1); the others follow their
 //! members. Everything is verified by (1.1) before it leaves.
 
+use super::count::{Draws, points_at};
 use super::evidence::{Lower, Solutions};
 use crate::geometry::camera::{Camera, normal_form};
 use crate::geometry::draw::{DrawKey, centres_mod};
@@ -13,6 +14,7 @@ use crate::geometry::plane_flow::directions;
 use crate::graph::{Adjacency, Graph, sha256};
 use crate::linalg::prime::PrimeField;
 use crate::linalg::span::Span;
+use crate::watch::{Step, unwatched};
 
 /// Two families of cameras with the same fundamental matrices on all edges, up to factors, of which
 /// none is the other one times one 4 x 4 matrix.
@@ -82,21 +84,29 @@ fn other_points(lower: &Lower) -> impl Iterator<Item = &Vec<u64>> {
     points.filter(|point| point.iter().any(|&u| u != 1))
 }
 
-/// The cameras of all nodes at each point other than u = 1, for these centres of all nodes; `None` if
-/// one of them is not what it has to be.
-pub(super) fn other_families(
-    graph: &Graph,
-    field: PrimeField,
-    centres: Vec<[u64; 3]>,
-    lower: &Lower,
-) -> Option<Vec<Vec<Camera<u64>>>> {
-    let families = other_points(lower).map(|point| {
-        let place = At::new(field, graph, centres.clone(), lower, point);
-        let first = place.given();
-        let second = place.second(&first)?;
-        place.is_witness(&first, &second).then_some(second)
-    });
-    families.collect()
+impl Solutions {
+    /// The cameras of all other solutions at these centres of all nodes, modulo the prime of the lower bound.
+    /// `None` if they are not as many as were counted, or not all simple, or have no residues.
+    pub fn families_at(
+        &self,
+        graph: &Graph,
+        centres: Vec<[u64; 3]>,
+        seed: u64,
+    ) -> Option<Vec<Vec<Camera<u64>>>> {
+        let lower = unwatched(|task| {
+            let work = task.at(Step::Solutions).begin(0);
+            let draws = Draws::new(graph, seed, &work).at(centres.clone());
+            Ok(points_at(self, &draws))
+        })?;
+        let field = PrimeField::new(lower.place.prime).ok()?;
+        let families = other_points(&lower).map(|point| {
+            let place = At::new(field, graph, centres.clone(), &lower, point);
+            let first = place.given();
+            let second = place.second(&first)?;
+            place.is_witness(&first, &second).then_some(second)
+        });
+        families.collect()
+    }
 }
 
 /// A point of a core, and the centres of all nodes.

@@ -1,13 +1,13 @@
 use super::*;
-use crate::graph::graph6;
-use crate::solutions::{Effort, count};
+use viewcert::graph::graph6;
+use viewcert::solutions::{Effort, count};
 
 /// What is found for a graph, and the scenes of some draws.
 fn scenes(name: &str, draws: u64) -> Vec<Scene> {
     let graph = graph6::decode(name.as_bytes()).unwrap();
     let solutions = count(&graph, Effort::default(), 1).unwrap();
     let search = Search::new(&graph, &solutions, 1).unwrap();
-    let places = unwatched(|task| Ok(search.places(&task.at(Step::Solutions).begin(0)))).unwrap();
+    let places = search.places().unwrap();
     // All that is shown of a scene was verified; here the numbers are seen to be those of its roots.
     for place in &places.places {
         assert_eq!(place.real(), 1 + place.roots.len());
@@ -87,8 +87,13 @@ fn cameras_near_a_root() {
     for &(i, j) in graph.edges() {
         let d = [0, 1, 2]
             .map(|k| Integer::from(scene.centres[i as usize][k] - scene.centres[j as usize][k]));
-        let [a, b] =
-            [i, j].map(|v| across(&crate::linalg::integer::Integers, &d, &cameras[v as usize]));
+        let [a, b] = [i, j].map(|v| {
+            across(
+                &viewcert::linalg::integer::Integers,
+                &d,
+                &cameras[v as usize],
+            )
+        });
         for (k, l) in (0..12).flat_map(|k| (0..k).map(move |l| (k, l))) {
             assert_eq!(a[k].mul(&b[l]), a[l].mul(&b[k]));
         }

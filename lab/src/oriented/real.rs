@@ -1,9 +1,9 @@
 //! Polynomials with integer coefficients, their real roots, and signs at these, exactly.
 
-use crate::linalg::Ring;
-use crate::linalg::integer::Integer;
-use crate::solutions::evidence::Interval;
+use super::Interval;
 use std::cmp::Ordering;
+use viewcert::linalg::Ring;
+use viewcert::linalg::integer::Integer;
 
 /// A polynomial, coefficients from the constant term up; the last one is not zero.
 pub(super) type Polynomial = Vec<Integer>;

@@ -1,14 +1,15 @@
 //! In how many scenes of graphs with several solutions a scene is unique although its graph has several
-//! (docs/theory.md, Theorems 10.18 and 10.19).
+//! (lab/docs/oriented.md, Theorems 10.18 and 10.19).
 //!
 //! In: graphs. Out: for those with the same number of solutions, what was found at integer centres that
 //! were drawn for each of them. What is found at a place is proved near it; how often it is found is not.
 
+use super::{Search, Standing};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use viewcert::decide::{CountSolutions, Options, Projective, VerdictError, decide};
 use viewcert::graph::{Graph, graph6};
-use viewcert::solutions::{Number, Search, Standing};
+use viewcert::solutions::Number;
 
 /// What was found at the places of some graphs.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

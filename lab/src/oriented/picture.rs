@@ -1,15 +1,15 @@
 //! A picture of two scenes with the same images: what was photographed, and another solution in front of
-//! its cameras (docs/theory.md, Theorem 10.19).
+//! its cameras (lab/docs/oriented.md, Theorem 10.19).
 //!
 //! In: a scene and one of its oriented solutions, exact. Out: centres and one point for each pair in both,
 //! in floating point, drawn side by side. That the solution is one, and oriented, was shown before, over
 //! the integers; a picture proves nothing.
 
-use crate::svg::{COLOURS, Svg};
+use super::{Oriented, Scene, Standing};
 use viewcert::geometry::camera::Camera;
 use viewcert::linalg::integer::Integer;
-use viewcert::solutions::{Oriented, Scene, Standing};
 use viewcert_formats::NamedGraph;
+use viewcert_report::svg::{COLOURS, Svg};
 
 type Vector = [f64; 3];
 
@@ -78,7 +78,7 @@ pub fn picture(input: &NamedGraph, second: &SecondScene<'_>) -> Option<String> {
 }
 
 /// The name of each node.
-pub(super) fn labels(input: &NamedGraph) -> Vec<String> {
+fn labels(input: &NamedGraph) -> Vec<String> {
     let nodes = 0..input.graph.nodes() as u32;
     nodes.map(|v| input.labels.label(v).into_owned()).collect()
 }

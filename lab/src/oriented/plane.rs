@@ -1,10 +1,10 @@
-//! Is there a plane at infinity? (docs/theory.md, Theorem 10.19.)
+//! Is there a plane at infinity? (lab/docs/oriented.md, Theorem 10.19.)
 //!
 //! In: vectors of four numbers. Out: one with which all their products are positive, or five of them
 //! a positive combination of which is zero. Numbers are rounded before either is looked for; whether
 //! what is found is right is for others to see.
 
-use crate::linalg::integer::Integer;
+use viewcert::linalg::integer::Integer;
 
 /// One of the two, by Gordan's theorem.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,16 +1,16 @@
-//! Solutions at integer centres, from solutions there modulo a prime (docs/theory.md, Theorem 10.18).
+//! Solutions at integer centres, from solutions there modulo a prime (lab/docs/oriented.md, Theorem 10.18).
 //!
 //! In: members, centres, and the cameras of all other solutions modulo a prime. Out: the same cameras
 //! over the numbers, as polynomials in the roots of one polynomial. The equations (10.1) of tight
 //! members are as many as there are unknowns, and Newton's method lifts their simple zeros.
 
 use super::real::{Polynomial, primitive};
-use crate::geometry::camera::Camera;
-use crate::linalg::Ring;
-use crate::linalg::dixon::reconstruct;
-use crate::linalg::integer::Integer;
-use crate::linalg::prime::PrimeField;
-use crate::linalg::span::Span;
+use viewcert::geometry::camera::Camera;
+use viewcert::linalg::Ring;
+use viewcert::linalg::dixon::reconstruct;
+use viewcert::linalg::integer::Integer;
+use viewcert::linalg::prime::PrimeField;
+use viewcert::linalg::span::Span;
 
 /// What all solutions at integer centres but the given one are.
 pub(super) struct Lifted {

@@ -1,30 +1,30 @@
-//! Which solutions are real and in front of the cameras (docs/theory.md, Theorems 10.18 to 10.20).
+//! Which solutions are real and in front of the cameras (lab/docs/oriented.md, Theorems 10.18 to 10.20).
 //!
 //! In: a graph whose number of solutions is known, two at least, and points of its tight core. Out:
 //! integer centres, all other solutions there (`lift`), which of them are real (`real`), and which of
 //! these are of a scene that lies in front of its cameras: signs, and a plane at infinity (`plane`).
 //! Each place stands for all cameras near it. Everything is verified over the integers before it leaves.
 
+mod evidence;
 mod lift;
+pub mod picture;
 mod plane;
 mod real;
+pub mod tally;
 
-use super::count::{Draws, points_at};
-use super::evidence::{Interval, Merge, Oriented, Root, Scene, Solutions, Standing};
-use super::members::nodes_of;
-use super::witness::other_families;
-use crate::contract::Contraction;
-use crate::geometry::camera::{Camera, centre};
-use crate::geometry::draw::{DrawKey, integer_centres};
-use crate::geometry::model::Model;
-use crate::graph::{Graph, sha256};
-use crate::linalg::Ring;
-use crate::linalg::integer::Integer;
-use crate::linalg::prime::PrimeField;
-use crate::watch::{Step, Work, unwatched};
+pub use evidence::{Interval, Oriented, Root, Scene, Standing};
 use lift::{Lifted, across, lift};
 use real::{Polynomial, Polynomials, real_roots, remainder, value_at};
 use std::cmp::Ordering;
+use viewcert::contract::Contraction;
+use viewcert::geometry::camera::{Camera, centre};
+use viewcert::geometry::draw::{DrawKey, integer_centres};
+use viewcert::geometry::model::Model;
+use viewcert::graph::{Graph, sha256};
+use viewcert::linalg::Ring;
+use viewcert::linalg::integer::Integer;
+use viewcert::linalg::prime::PrimeField;
+use viewcert::solutions::{Merge, Solutions};
 
 /// The largest coordinate of a centre.
 const COORDINATE: u64 = 20;
@@ -51,31 +51,14 @@ pub struct Search<'a> {
 
 impl<'a> Search<'a> {
     /// A search for a graph without known parts whose solutions were counted by
-    /// [`decide`](crate::decide::decide) or [`count`](super::count()). `None` unless they are two to eight,
+    /// [`decide`](viewcert::decide::decide) or [`count`](viewcert::solutions::count()). `None` unless they are two to eight,
     /// known exactly by points of a tight core that is not a factor, and the nodes are 40 at most.
     pub fn new(graph: &'a Graph, solutions: &'a Solutions, seed: u64) -> Option<Self> {
         let contraction = Contraction::new(graph, Model::Projective);
-        let members = nodes_of(&contraction, &contraction.finals, &contraction.loose);
-        Self::between(graph, &members, solutions, seed)
-    }
-
-    /// The scene at the integer centres of a draw, with coordinates of up to 20; `None` if not all
-    /// solutions there are simple and have residues modulo the prime, or numbers are too large. Nothing
-    /// stops this.
-    pub fn at_draw(&self, draw: u64) -> Option<Scene> {
-        unwatched(|task| {
-            let work = task.at(Step::Solutions).begin(0);
-            Ok(self.scene(draw, &work))
-        })
-    }
-
-    /// The same, where contraction has members with these nodes.
-    pub(crate) fn between(
-        graph: &'a Graph,
-        members: &[Vec<u32>],
-        solutions: &'a Solutions,
-        seed: u64,
-    ) -> Option<Self> {
+        let finals = contraction.finals.iter();
+        let bodies = finals.map(|&k| contraction.bodies[k as usize].nodes.clone());
+        let edges = contraction.loose.iter().map(|&(i, j)| vec![i, j]);
+        let members: Vec<Vec<u32>> = bodies.chain(edges).collect();
         let number = solutions.exactly().map(u64::try_from)?.ok()? as usize;
         // Theorem 10.18 is about tight cores.
         let lower = solutions.lower.as_ref();
@@ -86,7 +69,7 @@ impl<'a> Search<'a> {
         Some(Self {
             graph,
             solutions,
-            members: merged(members, &solutions.merges)?,
+            members: merged(&members, &solutions.merges)?,
             field: PrimeField::new(lower.place.prime).ok()?,
             seed,
             others: number - 1,
@@ -95,17 +78,17 @@ impl<'a> Search<'a> {
 
     /// Places with different numbers of real or oriented solutions, until nothing new is found; `None`
     /// if none was found at all.
-    pub(crate) fn places(&self, work: &Work<'_>) -> Option<Oriented> {
+    pub fn places(&self) -> Option<Oriented> {
         let mut found = Oriented {
             members: self.members.clone(),
             places: Vec::new(),
         };
         let mut like_others = 0;
         for draw in 0..DRAWS {
-            if like_others == LIKE_OTHERS || work.is_stopped() {
+            if like_others == LIKE_OTHERS {
                 break;
             }
-            let Some(scene) = self.scene(draw, work) else {
+            let Some(scene) = self.at_draw(draw) else {
                 continue;
             };
             let kind = |scene: &Scene| (scene.real(), scene.oriented());
@@ -119,9 +102,9 @@ impl<'a> Search<'a> {
         (!found.places.is_empty()).then_some(found)
     }
 
-    /// The scene at the centres of a draw; `None` if not all solutions there are simple and have
-    /// residues, or numbers are too large.
-    fn scene(&self, draw: u64, work: &Work<'_>) -> Option<Scene> {
+    /// The scene at the integer centres of a draw, with coordinates of up to 20; `None` if not all
+    /// solutions there are simple and have residues modulo the prime, or numbers are too large.
+    pub fn at_draw(&self, draw: u64) -> Option<Scene> {
         let key = DrawKey {
             graph_sha256: sha256(self.graph),
             core_sha256: None,
@@ -135,9 +118,9 @@ impl<'a> Search<'a> {
             .iter()
             .map(|c| c.map(|x| field.from_i64(x)))
             .collect();
-        let draws = Draws::new(self.graph, self.seed, work).at(residues.clone());
-        let lower = points_at(self.solutions, &draws)?;
-        let families = other_families(self.graph, *field, residues, &lower)?;
+        let families = self
+            .solutions
+            .families_at(self.graph, residues, self.seed)?;
         if families.len() != self.others {
             return None;
         }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Is the second scene of `verify witness GRAPH FILE --oriented` what it is said to be? (theory, Theorem 10.19)
+"""Is the second scene in a line of `viewcert-lab scenes` what it is said to be? (lab/docs/oriented.md, Theorem 10.19)
 
 By fractions alone, for a second solution that is rational, as that of a graph with two solutions is: fundamental matrices by
 the paper's formula, cameras that are photographs' (left blocks of positive determinant) after the plane is moved to
@@ -117,8 +117,8 @@ def seen_alike(first, second, pair, x):
 
 def main():
     with open(sys.argv[1], encoding="utf-8") as file:
-        witness = json.load(file)
-    print(f"{len(in_front(witness))} pairs see the same images of two scenes, in front of all cameras")
+        line = json.load(file)
+    print(f"{len(in_front({**line['scene'], 'edges': line['edges']}))} pairs see the same images of two scenes, in front of all cameras")
 
 
 if __name__ == "__main__":
