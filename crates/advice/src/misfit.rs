@@ -7,6 +7,7 @@
 //! are wrong change nothing.
 
 use serde::Serialize;
+use viewcert_formats::quaternion::rotation;
 
 type Vector = [f64; 3];
 /// By rows.
@@ -36,25 +37,7 @@ pub(crate) struct View {
 impl View {
     /// By a quaternion that is not zero, and a translation.
     pub(crate) fn new([w, x, y, z, t @ ..]: [f64; 7]) -> Self {
-        let norm = (w * w + x * x + y * y + z * z).sqrt();
-        let [w, x, y, z] = [w, x, y, z].map(|part| part / norm);
-        let turn = [
-            [
-                1.0 - 2.0 * (y * y + z * z),
-                2.0 * (x * y - w * z),
-                2.0 * (x * z + w * y),
-            ],
-            [
-                2.0 * (x * y + w * z),
-                1.0 - 2.0 * (x * x + z * z),
-                2.0 * (y * z - w * x),
-            ],
-            [
-                2.0 * (x * z - w * y),
-                2.0 * (y * z + w * x),
-                1.0 - 2.0 * (x * x + y * y),
-            ],
-        ];
+        let turn = rotation([w, x, y, z]);
         Self {
             centre: times(&transposed(&turn), t).map(|x| -x),
             turn,

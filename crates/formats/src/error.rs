@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::colmap::DatabaseError;
-use crate::edge_list::refusal::Refusal;
+use crate::edge_list::refusal::{Refusal, shown};
 use crate::inflate::{Damaged, Inflated};
 use crate::sparse6::Sparse6Error;
 use viewcert::graph::graph6::Graph6Error;
@@ -101,6 +101,9 @@ pub enum Problem {
         /// What to do about it.
         advice: &'static str,
     },
+    /// A file of tracks where pairs are read.
+    #[error("this is {0}")]
+    Tracks(&'static str),
     /// A file of this program that is no graph.
     #[error("this is {what} that this program has written, and it is not read here")]
     Own {
@@ -440,10 +443,6 @@ pub enum Problem {
     Diagonal(u32),
 }
 
-/// What to do with tracks where pairs are read.
-pub(super) const TRACKS: &str =
-    "it holds tracks, not pairs of images: --tracks decides the graph of its cameras and points";
-
 impl Problem {
     /// What whoever gave the input can do about it.
     pub fn remedy(&self) -> &str {
@@ -531,7 +530,7 @@ impl Problem {
                 "mend the file, or write one pair a line: two names and nothing else"
             }
             Self::TooManyJoined { .. } => "write the pairs one by one",
-            Self::EmptyField => "put a field on either side of every comma",
+            Self::EmptyField => "put a field on either side of every separator",
             Self::Quote(_) => "quote whole fields only, and double the quotes within them",
             Self::Unlike { .. } => "name the format with --format, or mend the line",
             Self::LineTooLarge { .. } => "write the graph as an edge list or in sparse6",
@@ -552,7 +551,9 @@ impl Problem {
                 "they come from a COLMAP database or model, Bundler's bundle.out, BAL, NVM and OpenMVG's matches; leave out --tracks to decide a graph of pairs"
             }
             Self::NoModel => "name the folder that has all files of the model",
-            Self::Model => TRACKS,
+            Self::Model | Self::Tracks(_) => {
+                "it holds tracks, not pairs of images: --tracks decides the graph of its cameras and points"
+            }
             Self::Holds(_) => "name one of these (a model is read with --tracks)",
             Self::Within { problem, .. } => problem.remedy(),
             Self::NoSuchVariable { .. } | Self::ChooseVariable { .. } => {
@@ -579,7 +580,7 @@ impl Problem {
 
     /// Whether it is refused where pairs are read since it holds tracks.
     pub fn holds_tracks(&self) -> bool {
-        self.remedy() == TRACKS
+        matches!(self, Self::Model | Self::Tracks(_))
     }
 
     /// Whether a text is refused for its form, which may be that of another format.
@@ -628,14 +629,5 @@ impl From<std::io::Error> for Problem {
                 Err(error) => Self::Unreadable(error),
             },
         }
-    }
-}
-
-/// A field in a message: its beginning, if it is long.
-fn shown(field: &str) -> String {
-    const MOST: usize = 40;
-    match field.char_indices().nth(MOST) {
-        Some((end, _)) => format!("{}...", &field[..end]),
-        None => field.to_owned(),
     }
 }

@@ -25,6 +25,7 @@ mod own_files;
 pub mod pairs;
 pub mod pickled;
 pub mod plain;
+pub mod quaternion;
 pub mod read;
 mod read_as;
 mod recognise;

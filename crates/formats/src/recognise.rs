@@ -9,10 +9,11 @@ use crate::documents::Document;
 use crate::edge_list::BYTE_ORDER_MARK;
 use crate::edge_list::fields::{integer, is_number};
 use crate::edge_list::table::is_own;
-use crate::error::{Problem, TRACKS};
+use crate::error::Problem;
 use crate::inflate::Compression;
 use crate::lines::{Encoding, trimmed};
-use crate::{colmap, matlab, matrix_market, own_files, sparse6, tracks};
+use crate::tracks::{self, TrackFile};
+use crate::{colmap, matlab, matrix_market, own_files, sparse6};
 use viewcert::graph::graph6;
 
 /// How much of an input is looked at.
@@ -58,7 +59,7 @@ pub(super) fn kind(head: &[u8], whole: bool) -> Result<Kind, Problem> {
     if head.contains(&0)
         && let Some(model) = tracks::kind(head, whole)
     {
-        return Err(foreign(model.name(), COLMAP));
+        return Err(of_tracks(model));
     }
     let head = head.strip_prefix(BYTE_ORDER_MARK).unwrap_or(head);
     if is_own(head) {
@@ -147,8 +148,7 @@ const fn foreign(what: &'static str, advice: &'static str) -> Problem {
 }
 
 const PAIRS: &str = "write one pair a line: the names of two cameras and nothing else";
-const COLMAP: &str =
-    "give COLMAP's database (`verify database.db`), or the folder of the model with --tracks";
+const COLMAP: &str = "it is one file of a COLMAP model: give the folder that holds it, with --tracks, or COLMAP's database";
 const TORO: &str = "write the two ids of every edge: awk '/^EDGE/ { print $2, $3 }' FILE";
 const DIMACS: &str = "write the two nodes of every edge: awk '/^[ea] / { print $2, $3 }' FILE";
 const DIGRAPH6: &str = "forget the directions with nauty's `underlyingg`, which writes graph6";
@@ -249,7 +249,7 @@ fn binary(head: &[u8]) -> Option<Problem> {
 const MOST_WORDS: usize = 8;
 
 /// First words of texts, with one blank between them, and what they are.
-const FIRST_WORDS: [(&str, &str, &str); 32] = [
+const FIRST_WORDS: [(&str, &str, &str); 27] = [
     (
         "*vertices",
         "a Pajek network",
@@ -270,15 +270,10 @@ const FIRST_WORDS: [(&str, &str, &str); 32] = [
     ("EDGE2", "a TORO pose graph", TORO),
     ("VERTEX3", "a TORO pose graph", TORO),
     ("EDGE3", "a TORO pose graph", TORO),
-    ("NVM_V", "an NVM file of VisualSFM", TRACKS),
     ("LEDA.GRAPH", "a LEDA graph", PAIRS),
     ("@nodes", "a LEMON graph", PAIRS),
-    ("# Image list with two lines", "COLMAP's images.txt", COLMAP),
-    ("# 3D point list", "COLMAP's points3D.txt", COLMAP),
-    ("# Camera list with one", "COLMAP's cameras.txt", COLMAP),
     ("# Rig calib list", "COLMAP's rigs.txt", COLMAP),
     ("# Frame list with one", "COLMAP's frames.txt", COLMAP),
-    ("# Bundle file", "a Bundler file", TRACKS),
     (
         "#index = ",
         "coords.txt of 1DSfM (features of images)",
@@ -333,7 +328,19 @@ fn by_first_words(head: &[u8]) -> Option<Problem> {
         .iter()
         .find(|(words, ..)| first.starts_with(words))
         .map(|&(_, what, advice)| foreign(what, advice));
-    found.or_else(|| kapture(text)).or_else(|| adjacency(text))
+    let tracks = || tracks::by_first_words(head).map(of_tracks);
+    found
+        .or_else(tracks)
+        .or_else(|| kapture(text))
+        .or_else(|| adjacency(text))
+}
+
+/// The refusal of a file with tracks, or of a part of a model.
+fn of_tracks(file: TrackFile) -> Problem {
+    match file {
+        TrackFile::Colmap { .. } => foreign(file.name(), COLMAP),
+        _ => Problem::Tracks(file.name()),
+    }
 }
 
 /// Files of kapture but for its lists of pairs, whose columns are named in a comment.
@@ -364,7 +371,12 @@ pub(super) fn likely(head: &[u8], whole: bool) -> Option<Problem> {
         _ => head,
     };
     let text = std::str::from_utf8(text).ok()?;
+    let model = || match tracks::kind(head, whole) {
+        Some(file @ TrackFile::Colmap { .. }) => Some(of_tracks(file)),
+        _ => None,
+    };
     markup(text)
+        .or_else(model)
         .or_else(|| encoded(head, whole))
         .or_else(|| words(text, whole))
 }
@@ -445,6 +457,9 @@ fn words(text: &str, whole: bool) -> Option<Problem> {
     if text.trim_start().starts_with('(') && first.len() == 3 && first[1].ends_with(')') {
         return Some(foreign(PRINTED, PRINTED_ADVICE));
     }
+    if integer(first[0]).is_some() && first.contains(&"CAMERA") {
+        return Some(foreign("COLMAP's rigs.txt or frames.txt", COLMAP));
+    }
     let of = |kinds: &[&str]| lines.iter().all(|line| kinds.contains(&line[0]));
     let is_edge = |line: &Vec<&str>| {
         ["e", "a"].contains(&line[0]) && line.get(1).is_some_and(|end| integer(end).is_some())
@@ -466,7 +481,7 @@ fn words(text: &str, whole: bool) -> Option<Problem> {
         && integer(camera).is_some_and(|camera| camera < *cameras)
         && integer(point).is_some_and(|point| point < *points)
     {
-        return Some(foreign("a bundle adjustment problem (BAL)", TRACKS));
+        return Some(of_tracks(TrackFile::Bal));
     }
     if let (2, Some([count])) = (
         first.len(),
@@ -478,7 +493,7 @@ fn words(text: &str, whole: bool) -> Option<Problem> {
             .take(*count as usize)
             .all(|line| line.len() == 2)
     {
-        return Some(foreign("a file of feature matches (OpenMVG)", TRACKS));
+        return Some(of_tracks(TrackFile::OpenMvgMatches));
     }
     if whole
         && lines.len() > 2

@@ -8,6 +8,9 @@ use viewcert::wording::counted;
 use viewcert_formats::NamedGraph;
 use viewcert_formats::colmap::DatabaseFacts;
 
+/// The condition of whatever pairs of photographs say.
+pub(crate) const RIGHT: &str = "if every pair is right";
+
 /// The condition for what the input says of pairs or tracks.
 pub(crate) fn of(input: &NamedGraph) -> String {
     let focal = input.database.as_deref().map_or_else(String::new, focal);
@@ -26,8 +29,8 @@ pub(crate) fn of_photographs(input: &NamedGraph, model: Model) -> Option<String>
 /// The condition without focal lengths.
 pub(crate) fn if_right(input: &NamedGraph) -> String {
     let is_model = input.cameras.is_some() && input.database.is_none();
-    let what = if is_model { "track" } else { "pair" };
-    format!("if every {what} is right")
+    let tracks = "if every track is right";
+    if is_model { tracks } else { RIGHT }.to_owned()
 }
 
 /// What has to hold of focal lengths that are guesses.

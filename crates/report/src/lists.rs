@@ -1,10 +1,11 @@
 //! Lists of images and what they determine, for people and for programs.
 
-use super::{counted, json::write_line, size_of, text};
+use super::{condition, counted, json::write_line, size_of, text};
 use crate::shown::{SHOWN, some_names};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::time::Duration;
+use viewcert::Model;
 use viewcert::wording::printable;
 use viewcert_advice::lists::{Fixed, Found, Lists};
 use viewcert_formats::NamedGraph;
@@ -44,7 +45,13 @@ impl ListReport<'_> {
         writeln!(out, "  decided     {by}")?;
         for (k, list) in lists.lists.iter().enumerate() {
             let title = format!("list {}", k + 1);
-            writeln!(out, "  {title:<12}{}: {}", list.file, found(list))?;
+            let condition = self.condition(list.whole);
+            writeln!(
+                out,
+                "  {title:<12}{}: {}{condition}",
+                list.file,
+                found(list)
+            )?;
         }
         for overlap in lists.overlaps.iter().take(SHOWN) {
             let [a, b] = overlap.between;
@@ -74,6 +81,13 @@ impl ListReport<'_> {
         )
     }
 
+    /// What a promise rests on, in words behind it.
+    fn condition(&self, is_promised: bool) -> String {
+        let condition = condition::of_photographs(self.input, Model::Calibrated);
+        let condition = condition.filter(|_| is_promised);
+        condition.map_or_else(String::new, |condition| format!(" {condition}"))
+    }
+
     /// What overlaps fix, in words.
     fn scale(&self) -> String {
         let lists = self.lists;
@@ -91,7 +105,8 @@ impl ListReport<'_> {
             [] => "no list has a part".to_owned(),
             _ if lists.lists.len() == 1 => "there is one list".to_owned(),
             [_] if lists.determined => {
-                "one scale: the overlaps fix all lists against each other".to_owned()
+                let scale = "one scale: the overlaps fix all lists against each other";
+                scale.to_owned() + &self.condition(true)
             }
             [one] => format!("one scale for {}", set(one)),
             several => {
@@ -117,6 +132,8 @@ impl ListReport<'_> {
             pairs: graph.edges().len(),
             notes: &self.input.notes,
             by: self.by,
+            condition: condition::of_photographs(self.input, Model::Calibrated)
+                .filter(|_| self.lists.lists.iter().any(|list| list.whole)),
             lists: self.lists,
             seconds: self.time.as_secs_f64(),
         };
@@ -157,6 +174,8 @@ struct Line<'a> {
     pairs: usize,
     notes: &'a [String],
     by: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    condition: Option<String>,
     #[serde(flatten)]
     lists: &'a Lists,
     seconds: f64,

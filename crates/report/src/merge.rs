@@ -3,6 +3,7 @@
 use super::json::{GraphLine, write_line};
 use super::{counted, text};
 use crate::advice::suggestions as write_suggestions;
+use crate::condition::RIGHT;
 use crate::shown::{SHOWN, rest, some_names};
 use serde::Serialize;
 use std::io::{self, Write};
@@ -96,13 +97,19 @@ impl MergeReport<'_> {
     }
 
     /// The answer in a line.
-    fn answer(&self) -> &'static str {
-        match (self.merge.determined, self.merge.agree()) {
-            (true, true) => "yes: rotation, translation and scale are determined",
+    fn answer(&self) -> String {
+        let answer = match (self.merge.determined, self.merge.agree()) {
+            (true, true) => "yes: rotation, translation and scale are determined ",
             (true, false) => "no: the models share enough, but what they share contradicts them",
             (false, true) => "no",
             (false, false) => "no, and what the models share contradicts them",
-        }
+        };
+        answer.to_owned() + self.condition().unwrap_or_default()
+    }
+
+    /// What a good answer rests on.
+    fn condition(&self) -> Option<&'static str> {
+        (self.merge.determined && self.merge.agree()).then_some(RIGHT)
     }
 
     /// What the answer rests on.
@@ -254,6 +261,7 @@ impl MergeReport<'_> {
                 .map(|(input, verdict)| GraphLine::new(input, verdict)),
             notes: self.tracks.map_or(&[][..], |(input, _)| &input.notes),
             merge: self.merge,
+            condition: self.condition(),
             merger: self.merger(),
             because: self.because(),
             next: [Next { command, purpose }],
@@ -341,6 +349,8 @@ struct Line<'a> {
     notes: &'a [String],
     #[serde(flatten)]
     merge: &'a Merge,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    condition: Option<&'static str>,
     merger: String,
     because: String,
     next: [Next; 1],

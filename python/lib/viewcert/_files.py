@@ -164,7 +164,7 @@ class ListedImages:
     images : int
         How many it has.
     is_whole : bool
-        Whether its own pairs or tracks hold all of them together.
+        Whether its own pairs or tracks hold all of them together, if every pair is right.
     """
 
     file: str
@@ -252,7 +252,7 @@ class Merge:
     Attributes
     ----------
     determined : bool
-        Whether what they share leaves nothing free between them.
+        Whether what they share leaves nothing free between them, if every pair is right.
     agree : bool, optional
         Whether it fits, as measured in floating point; None if they share too little to contradict each other.
     disagree : tuple of str

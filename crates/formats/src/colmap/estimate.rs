@@ -6,6 +6,7 @@
 //! matrix", 1990): with b a column of (1/2 tr E E^T) I - E E^T, cof(E) - [b] E = |b|^2 R.
 
 use super::TwoViews;
+use crate::quaternion::rotation;
 
 /// Rays less far apart than so many degrees, in the median, tell next to nothing of a distance.
 pub const LEAST_ANGLE: f64 = 1.0;
@@ -139,29 +140,6 @@ fn median_angle(pose: &Pose, matches: &[[Vector; 2]]) -> Option<f64> {
     let middle = angles.len() / 2;
     let (_, median, _) = angles.select_nth_unstable_by(middle, f64::total_cmp);
     Some(*median)
-}
-
-/// The matrix of a quaternion (w, x, y, z), of any length.
-fn rotation(q: [f64; 4]) -> Matrix {
-    let square: f64 = q.iter().map(|x| x * x).sum();
-    let [w, x, y, z] = q.map(|k| k / square.sqrt());
-    [
-        [
-            1.0 - 2.0 * (y * y + z * z),
-            2.0 * (x * y - w * z),
-            2.0 * (x * z + w * y),
-        ],
-        [
-            2.0 * (x * y + w * z),
-            1.0 - 2.0 * (x * x + z * z),
-            2.0 * (y * z - w * x),
-        ],
-        [
-            2.0 * (x * z - w * y),
-            2.0 * (y * z + w * x),
-            1.0 - 2.0 * (x * x + y * y),
-        ],
-    ]
 }
 
 fn dot(a: Vector, b: Vector) -> f64 {

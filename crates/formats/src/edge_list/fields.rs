@@ -58,9 +58,10 @@ pub(crate) fn split(line: &str, fields: &mut Vec<Field>) -> Result<(), Problem> 
 }
 
 /// What stands between the fields of a line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Separator {
     /// Blanks, tabs and commas.
+    #[default]
     Any,
     /// Blanks and tabs.
     Blank,

@@ -3,7 +3,7 @@
 //! Two columns of numbers, or of words, are much that is no graph: what things are called, how often they
 //! occur, where features lie. So what a list of pairs of cameras hardly ever is gets refused.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 
 use super::names::{are_alike, is_copy, is_image, shape};
 use super::refusal::Refusal;
@@ -12,6 +12,7 @@ use super::refusal::Refusal;
 const MOST: usize = 1 << 16;
 
 /// A list of pairs, as far as it has been understood.
+#[derive(Default)]
 pub(super) struct List<'a> {
     /// Two integers each, or numbers of `labels` or `values`.
     pub(super) pairs: &'a [(u32, u32)],
@@ -31,101 +32,85 @@ pub(super) struct List<'a> {
 impl List<'_> {
     /// What speaks against pairs of cameras.
     pub(super) fn doubt(&self) -> Option<Refusal> {
-        let &first = self.pairs.first()?;
         let pairs = &self.pairs[..self.pairs.len().min(MOST)];
-        let is_first = |&(a, b): &(u32, u32)| (a, b) == first || (b, a) == first;
+        let table = |what| Some(Refusal::table(what));
+        let Some(&(a, b)) = pairs.first() else {
+            let only = table("all lines pair a label with itself: a table, perhaps");
+            return only.filter(|_| !self.loops.is_empty());
+        };
+        let is_first = |pair: &(u32, u32)| [(a, b), (b, a)].contains(pair);
         if pairs.len() + self.loops.len() > 1 && pairs.iter().all(is_first) {
-            return Some(Refusal::table(
-                "all lines hold the same two labels: a table, perhaps",
-            ));
+            return table("all pairs are of the same two labels: a table, perhaps");
         }
         match self.labels {
-            Some(labels) => self.stands_apart().or_else(|| self.of_names(pairs, labels)),
+            Some(labels) => self
+                .stands_apart()
+                .or_else(|| self.of_names(pairs, labels).and_then(table)),
             None => self
                 .of_pandas(pairs)
                 .or_else(|| self.counts())
                 .or_else(|| self.stands_apart())
-                .or_else(|| self.of_integers(pairs)),
+                .or_else(|| self.of_integers(pairs).and_then(table)),
         }
-    }
-
-    fn lines(&self) -> u64 {
-        self.pairs.len() as u64 + self.left_out
     }
 
     fn integer(&self, end: u32) -> u64 {
-        match &self.values {
-            Some(values) => values[end as usize],
-            None => end.into(),
-        }
+        let values = self.values.as_ref();
+        values.map_or(end.into(), |values| values[end as usize])
     }
 
-    fn label(&self, end: u32) -> String {
-        match self.labels {
+    /// A line in a refusal, which is no pair.
+    fn odd(&self, place: &str, (a, b): (u32, u32), what: &str) -> Refusal {
+        let label = |end: u32| match self.labels {
             Some(labels) => labels[end as usize].to_owned(),
             None => self.integer(end).to_string(),
-        }
-    }
-
-    fn shown(&self, (a, b): (u32, u32)) -> String {
-        format!("{} {}", self.label(a), self.label(b))
+        };
+        Refusal::odd(place, &format!("{} {}", label(a), label(b)), what)
     }
 
     /// A first line whose labels are in no other line, or a last one below names.
     pub(super) fn stands_apart(&self) -> Option<Refusal> {
-        let lines = self.pairs;
+        let what = "may be a head or counts: its labels are in no other line";
         let is_apart = |(a, b): (u32, u32), others: &[(u32, u32)]| {
             let images = |labels: &[&str]| [a, b].iter().all(|&end| is_image(labels[end as usize]));
             let known = |&(c, d): &(u32, u32)| [a, b].contains(&c) || [a, b].contains(&d);
             others.len() > 1 && !self.labels.is_some_and(images) && !others.iter().any(known)
         };
-        let (&first, below) = lines.split_first()?;
+        let (&first, below) = self.pairs.split_first()?;
         if is_apart(first, below) {
-            return Some(Refusal::apart("first", &self.shown(first)));
+            return Some(self.odd("first", first, what));
         }
-        let (&last, above) = lines.split_last()?;
-        let is_odd = self.labels.is_some() && is_apart(last, above) && self.left_out == 0;
-        is_odd.then(|| Refusal::apart("last", &self.shown(last)))
+        let (&last, above) = self.pairs.split_last()?;
+        let is_odd = self.labels.is_some() && self.left_out == 0 && is_apart(last, above);
+        is_odd.then(|| self.odd("last", last, what))
     }
 
     /// The numbers of columns as pandas writes them above tables without names, where nothing but this line
     /// has the 0.
     fn of_pandas(&self, pairs: &[(u32, u32)]) -> Option<Refusal> {
-        let &(a, b) = pairs.first()?;
-        let numbered = (self.integer(a), self.integer(b)) == (0, 1)
-            && (self.width == 2 || self.width == 3 && self.thirds.first() == Some(&2));
-        let others = &pairs[1..];
-        let is_alone = others.iter().all(|&(c, d)| c != a && d != a);
-        (numbered && !others.is_empty() && is_alone && !is_chain(pairs)).then(|| {
-            let what = "the first line, 0 and 1, may be a pair, or the numbers of the columns as pandas writes them";
-            let remedy = "delete it if it is no pair; if it is one, write the line `source,target` above it";
-            Refusal::new(what, remedy)
-        })
+        let (&(a, b), below) = pairs.split_first()?;
+        let third = self.width == 2 || self.width == 3 && self.thirds.first() == Some(&2);
+        let numbered = third && (self.integer(a), self.integer(b)) == (0, 1);
+        let is_alone = !below.is_empty() && below.iter().all(|&(c, d)| c != a && d != a);
+        let what = "may be the numbers of the columns as pandas writes them";
+        (numbered && is_alone && !is_chain(pairs)).then(|| self.odd("first", (a, b), what))
     }
 
     /// The numbers of nodes and pairs, above or below these.
     fn counts(&self) -> Option<Refusal> {
-        let lines = self.lines() - 1;
-        if lines < 3 {
-            return None;
-        }
-        let last = self.pairs.len() - 1;
+        let lines = self.pairs.len() as u64 + self.left_out - 1;
+        // Most lines are none, and nothing has to be counted.
+        let twice = |m: u64| m == lines || m.checked_mul(2) == Some(lines);
         let is_count = |at: usize| {
-            let (x, y) = self.pairs[at];
-            let (x, y) = (self.integer(x), self.integer(y));
-            // Most lines are none, and nothing has to be counted.
-            let twice = |m: u64| m == lines || m.checked_mul(2) == Some(lines);
-            if !twice(x) && !twice(y) {
+            let (a, b) = self.pairs[at];
+            let (x, y) = (self.integer(a), self.integer(b));
+            if !twice(x) && !twice(y) || at > 0 && is_chain(self.pairs) {
                 return false;
             }
             let others = self.pairs.iter().enumerate().filter(|&(k, _)| k != at);
             let nodes: HashSet<u32> = others.flat_map(|(_, &(a, b))| [a, b]).collect();
-            let (a, b) = self.pairs[at];
             // Below a list that goes on, the counts have to be right.
             let goes_on = at > 0 && nodes.contains(&a) && nodes.contains(&b);
-            if at > 0 && is_chain(self.pairs) {
-                return false;
-            }
             let nodes = nodes.len() as u64;
             let counts = |n: u64, m: u64| match goes_on {
                 true => (n, m) == (nodes, lines),
@@ -133,150 +118,116 @@ impl List<'_> {
             };
             counts(x, y) || counts(y, x)
         };
-        let at = [0, last].into_iter().find(|&at| is_count(at))?;
-        let place = if at == 0 { "first" } else { "last" };
-        let what = format!(
-            "the {place} line, {}, may count nodes and lines",
-            self.shown(self.pairs[at])
-        );
-        Some(Refusal::new(
-            what,
-            "delete it if it is no pair; if it is one, write the line `source target` above all",
-        ))
+        let ends = [("first", 0), ("last", self.pairs.len() - 1)];
+        let (place, at) = ends
+            .into_iter()
+            .find(|&(_, at)| lines > 2 && is_count(at))?;
+        Some(self.odd(place, self.pairs[at], "may count nodes and lines"))
     }
 
-    fn of_integers(&self, pairs: &[(u32, u32)]) -> Option<Refusal> {
-        let value = |&(a, b): &(u32, u32)| (self.integer(a), self.integer(b));
-        if let [pair] = pairs {
-            let (a, b) = value(pair);
-            return (b.checked_sub(1) != Some(a))
-                .then(|| Refusal::table("one line of two numbers may be a size, or two counts"));
+    fn of_integers(&self, pairs: &[(u32, u32)]) -> Option<&'static str> {
+        let values = pairs
+            .iter()
+            .map(|&(a, b)| (self.integer(a), self.integer(b)));
+        if let ([_], Some((a, b))) = (pairs, values.clone().next()) {
+            let sizes = "one line of two numbers may be a size, or two counts";
+            return (b.checked_sub(1) != Some(a)).then_some(sizes);
         }
-        let loops = self.loops.iter().filter_map(|label| label.parse().ok());
-        let firsts = || loops.clone().chain(pairs.iter().map(value).map(|(a, _)| a));
         let is_chain = is_chain(pairs);
-        if !is_chain && are_different(firsts()) {
-            return Some(Refusal::table(
+        let loops = self.loops.iter().filter_map(|label| label.parse().ok());
+        let firsts = loops.chain(values.clone().map(|(a, _)| a));
+        if (!is_chain || !self.loops.is_empty()) && are_different(firsts) {
+            return Some(
                 "the first column has each number once, as a table with a line for each thing has",
-            ));
+            );
         }
-        let seconds = pairs.iter().map(value).map(|(_, b)| b);
-        let is_falling = |(a, b)| a > b;
-        if !is_chain && pairs.iter().map(value).any(is_falling) && are_different(seconds) {
-            return Some(Refusal::table(
+        let falls = values.clone().any(|(a, b)| a > b);
+        if !is_chain && falls && are_different(values.map(|(_, b)| b)) {
+            return Some(
                 "the second column has each number once, as a table with a line for each thing has",
-            ));
+            );
         }
         self.columns_apart(pairs).or_else(|| self.triples(pairs))
     }
 
     /// Columns with hardly a number in common, as of cameras and points, or pairs with hardly a number in
     /// common; lists of graphs that are in order, and have no gaps, are such, too.
-    fn columns_apart(&self, pairs: &[(u32, u32)]) -> Option<Refusal> {
-        let column = |end: fn(&(u32, u32)) -> u32| -> HashSet<u64> {
-            pairs.iter().map(|pair| self.integer(end(pair))).collect()
-        };
-        let (firsts, seconds) = (column(|pair| pair.0), column(|pair| pair.1));
-        let all = firsts.union(&seconds).count();
-        let shared = firsts.intersection(&seconds).count();
-        let ends = |of: &HashSet<u64>| Some((*of.iter().min()?, *of.iter().max()?));
-        let ((low, first), (second, high)) = (ends(&firsts)?, ends(&seconds)?);
-        let without_gaps =
-            low.min(second) <= 1 && first.max(high) - low.min(second) == all as u64 - 1;
+    fn columns_apart(&self, pairs: &[(u32, u32)]) -> Option<&'static str> {
+        let (firsts, seconds) = columns(pairs);
+        let all: HashSet<u64> = firsts
+            .union(&seconds)
+            .map(|&end| self.integer(end))
+            .collect();
+        let (&low, &high) = (all.iter().min()?, all.iter().max()?);
         let is_rising = |&(a, b): &(u32, u32)| self.integer(a) < self.integer(b);
+        let without_gaps = low <= 1 && high - low == all.len() as u64 - 1;
         let in_order = without_gaps && self.width < 9 && pairs.iter().all(is_rising);
-        if 4 * shared < all && !in_order {
-            return Some(Refusal::table(
-                "the two columns have hardly a number in common",
-            ));
+        if 4 * firsts.intersection(&seconds).count() < all.len() && !in_order {
+            return Some("the two columns have hardly a number in common");
         }
-        (pairs.len() > 3 && self.left_out == 0 && 4 * pairs.len() < 3 * all)
-            .then(|| Refusal::table("most pairs have no number in common with others"))
+        (pairs.len() > 3 && self.left_out == 0 && 4 * pairs.len() < 3 * all.len())
+            .then_some("most pairs have no number in common with others")
     }
 
     /// Three labels a line, as of triangles; a matrix of three rows.
-    fn triples(&self, pairs: &[(u32, u32)]) -> Option<Refusal> {
+    fn triples(&self, pairs: &[(u32, u32)]) -> Option<&'static str> {
         /// In longer lists weights are numbers of other cameras by chance.
         const FEW: usize = 64;
-        let lines: Vec<[u32; 3]> = pairs
-            .iter()
-            .zip(self.thirds)
-            .map(|(&(a, b), &c)| [a, b, c])
-            .collect();
-        if self.width != 3 || self.values.is_some() || lines.len() < pairs.len().min(FEW) {
+        let lines = pairs.iter().zip(self.thirds);
+        let lines: Vec<[u32; 3]> = lines.map(|(&(a, b), &c)| [a, b, c]).collect();
+        let enough = lines.len() > 2 && lines.len() >= pairs.len().min(FEW);
+        if self.width != 3 || self.values.is_some() || !enough {
             return None;
         }
-        let is_symmetric =
-            |rows: &[[u32; 3]; 3]| (0..3).all(|i| (0..3).all(|j| rows[i][j] == rows[j][i]));
-        if lines.len() == pairs.len()
-            && lines.first_chunk().is_some_and(is_symmetric)
-            && lines.len() == 3
-        {
-            return Some(Refusal::table(
-                "three lines of three numbers that are a symmetric matrix",
-            ));
+        let is_symmetric = |i: usize| (0..3).all(|j| lines[i][j] == lines[j][i]);
+        if lines.len() == 3 && pairs.len() == 3 && (0..3).all(is_symmetric) {
+            return Some("three lines of three numbers that are a symmetric matrix");
         }
         let ends: HashSet<u32> = pairs.iter().flat_map(|&(a, b)| [a, b]).collect();
         let here: HashSet<u32> = lines.iter().flat_map(|&[a, b, _]| [a, b]).collect();
         let thirds: HashSet<u32> = lines.iter().map(|line| line[2]).collect();
-        let mut lines_of: HashMap<[u32; 2], usize> = HashMap::new();
-        for &(a, b) in pairs {
-            *lines_of.entry([a.min(b), a.max(b)]).or_default() += 1;
-        }
-        let is_pair = |a: u32, b: u32| lines_of.contains_key(&[a.min(b), a.max(b)]);
-        let closed = lines
-            .iter()
-            .filter(|[a, b, c]| is_pair(*a, *c) || is_pair(*b, *c));
+        let both = pairs.iter().flat_map(|&(a, b)| [(a, b), (b, a)]);
+        let both: HashSet<(u32, u32)> = both.collect();
+        let count = |is: &dyn Fn(&[u32; 3]) -> bool| lines.iter().filter(|line| is(line)).count();
+        let closed = count(&|&[a, b, c]| both.contains(&(a, c)) || both.contains(&(b, c)));
         let next = ends.iter().max().map_or(0, |&end| end.saturating_add(1));
-        let known = lines
-            .iter()
-            .filter(|line| ends.contains(&line[2]) || line[2] == next);
-        let many = lines.len() > 2 && 2 * thirds.len() >= here.len();
-        let all = lines.iter().all(|[a, b, c]| a != c && b != c);
-        let closes = pairs.len() <= FEW || 4 * closed.count() >= lines.len();
-        (many && all && closes && 4 * known.count() >= 3 * lines.len())
-            .then(|| Refusal::table("the third numbers are labels, too: triangles, perhaps"))
+        let known = count(&|&[_, _, c]| ends.contains(&c) || c == next);
+        let all = count(&|&[a, b, c]| a != c && b != c) == lines.len();
+        let closes = pairs.len() <= FEW || 4 * closed >= lines.len();
+        (all && closes && 2 * thirds.len() >= here.len() && 4 * known >= 3 * lines.len())
+            .then_some("the third numbers are labels, too: triangles, perhaps")
     }
 
-    fn of_names(&self, pairs: &[(u32, u32)], labels: &[&str]) -> Option<Refusal> {
-        let firsts: HashSet<u32> = pairs.iter().map(|pair| pair.0).collect();
-        let seconds: HashSet<u32> = pairs.iter().map(|pair| pair.1).collect();
-        let all = firsts.union(&seconds).count();
+    fn of_names(&self, pairs: &[(u32, u32)], labels: &[&str]) -> Option<&'static str> {
+        let (firsts, seconds) = columns(pairs);
+        let all: HashSet<u32> = firsts.union(&seconds).copied().collect();
         let shared = firsts.intersection(&seconds).count();
-        if 8 * shared >= all {
+        if 8 * shared >= all.len() {
             return None;
         }
         let name = |end: u32| labels[end as usize];
-        let ends = || firsts.union(&seconds).map(|&end| name(end));
-        let images = ends().all(is_image);
-        let single = firsts.len() == pairs.len() && seconds.len() == pairs.len();
+        let images = all.iter().all(|&end| is_image(name(end)));
+        let single = firsts.len() == pairs.len() && seconds.len() == pairs.len() && pairs.len() > 1;
         if images && shared == 0 && pairs.iter().all(|&(a, b)| is_copy(name(a), name(b))) {
-            return Some(Refusal::table(
-                "each name is that of the other and an addition: copies or masks",
-            ));
+            return Some("each name is that of the other and an addition: copies or masks");
         }
-        if let (true, &[(a, b)], true) = (images, pairs, self.width < 9) {
+        if let (true, &[(a, b)]) = (images && self.width < 9, pairs) {
             return (!are_alike(name(a), name(b)))
-                .then(|| Refusal::table("one line of two images in two folders, or of two kinds"));
+                .then_some("one line of two images in two folders, or of two kinds");
         }
-        let what = match () {
-            () if single && shared == 0 && pairs.len() > 1 => {
-                "no label is in two lines: a table of things and their names, perhaps"
-            }
-            () if images && self.width < 9 => return None,
-            () => "hardly any label is in both columns: a table, perhaps",
-        };
-        let mut shapes = ends().map(shape);
-        let first = shapes.next();
-        let alike = shapes.all(|other| Some(other) == first) && self.width < 9;
-        (!alike || single && pairs.len() > 1).then(|| Refusal::table(what))
+        let shapes: HashSet<String> = all.iter().map(|&end| shape(name(end))).collect();
+        let alike = shapes.len() < 2 && self.width < 9 && !single;
+        if single && shared == 0 {
+            return Some("no label is in two lines: a table of things and their names, perhaps");
+        }
+        (!alike && !(images && self.width < 9))
+            .then_some("hardly any label is in both columns: a table, perhaps")
     }
 
     /// Pairs below a head that names any source and target, no two of which have a label in common.
     pub(super) fn are_copies(&self) -> Option<Refusal> {
-        let mut met = HashSet::new();
         let pairs = &self.pairs[..self.pairs.len().min(MOST)];
-        let apart = pairs.len() > 1 && pairs.iter().all(|&(a, b)| met.insert(a) && met.insert(b));
+        let apart = pairs.len() > 1 && are_different(pairs.iter().flat_map(|&(a, b)| [a, b]));
         apart.then(|| {
             Refusal::new(
                 "no label is in two lines: copies, perhaps, or renamed files",
@@ -286,10 +237,15 @@ impl List<'_> {
     }
 }
 
+/// What stands in the first and in the second column.
+fn columns(pairs: &[(u32, u32)]) -> (HashSet<u32>, HashSet<u32>) {
+    pairs.iter().copied().unzip()
+}
+
 /// Whether nothing occurs twice.
-fn are_different(mut numbers: impl Iterator<Item = u64>) -> bool {
+fn are_different<T: Eq + std::hash::Hash>(mut all: impl Iterator<Item = T>) -> bool {
     let mut met = HashSet::new();
-    numbers.all(|number| met.insert(number))
+    all.all(|one| met.insert(one))
 }
 
 /// Whether each pair goes on where the one before has ended.

@@ -39,7 +39,7 @@ use likely::List;
 use names::is_image;
 use nodes::{Index, number_integers};
 use plain::{Plain, further_numbers, ignored, line_end};
-use refusal::{Refusal, head};
+use refusal::{Refusal, head, shown};
 use table::{Head, Layout, layout};
 
 /// The longest line that is read, with its end.
@@ -54,9 +54,10 @@ pub(super) const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 const FIRST_LINES: usize = 64;
 
 /// How a text is understood.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Reading {
     /// As an edge list only if it can be nothing else.
+    #[default]
     Strict,
     /// As an edge list: the first two fields of a line are a pair, a single one is a node.
     Lenient,
@@ -85,21 +86,7 @@ pub(super) fn read_with(
         layout: layout.map_err(|problem| no_text(head).unwrap_or(Place::Input.fault(problem)))?,
         min_weight: options.min_weight.clone(),
         skip_loops: options.skip_loops,
-        head: None,
-        light: 0,
-        loops: Vec::new(),
-        comments: 0,
-        pairs: Vec::new(),
-        singles: Vec::new(),
-        names: None,
-        thirds: Vec::new(),
-        kinds: Kinds::default(),
-        line: 0,
-        first: None,
-        fields: Vec::new(),
-        lines_with_more: 0,
-        trusted: 0,
-        buffers: Vec::new(),
+        ..Collector::default()
     };
     collector.read(input)?;
     collector.finish()
@@ -137,6 +124,7 @@ struct Kinds {
 }
 
 /// The pairs read so far.
+#[derive(Default)]
 struct Collector {
     reading: Reading,
     layout: Layout,
@@ -146,8 +134,9 @@ struct Collector {
     head: Option<(u64, [Box<str>; 2])>,
     /// Lines whose pair weighs less.
     light: u64,
-    /// Labels of lines that pair them with themselves and were left out.
+    /// Labels of lines that pair them with themselves, and the first such line.
     loops: Vec<Box<str>>,
+    first_loop: u64,
     /// Lines that are nothing but a comment.
     comments: u64,
     /// Ends are integers as written, or node numbers of `names` once that exists.
@@ -204,7 +193,7 @@ impl Collector {
     /// What is wrong with the line after those that were read, which is too long: what it is
     /// says more than how long it is.
     fn long_line(&self, line: &[u8]) -> Fault {
-        let too_long = Place::Line(self.line + 1).fault(Refusal::long(LINE_LIMIT).into());
+        let too_long = Place::Line(self.line + 1).fault(too_long());
         self.text_of(self.line + 1, line).err().unwrap_or(too_long)
     }
 
@@ -290,18 +279,13 @@ impl Collector {
         done.map_err(|problem| Place::Line(self.line).fault(problem))
     }
 
-    /// Whether nothing but the lines themselves says that they are pairs.
-    fn is_bare(&self) -> bool {
-        self.reading == Reading::Strict && self.layout.head == Head::None
-    }
-
     /// Takes in a line with fields.
     fn line_of(&mut self, line: &str, fields: &[Field], is_first: bool) -> Result<(), Problem> {
         let found = fields.len();
         let lone = self.layout.head == Head::Own || self.layout.width.is_none();
         if let ([only], true) = (fields, lone) {
             if !only.quoted && self.has_comma(only.raw(line)) {
-                return Err(Refusal::blank(only.raw(line)).into());
+                return Err(Refusal::quotes(only.raw(line), BLANKS).into());
             }
             let [node, _] = self.nodes([&only.text(line); 2])?;
             self.singles.push(node);
@@ -312,12 +296,11 @@ impl Collector {
             .width
             .or((self.layout.head == Head::Own).then_some(2));
         if let Some(expected) = expected.filter(|&expected| expected != found) {
-            return Err(match self.reading {
-                Reading::Columns(_) => Refusal::format(found, expected),
-                _ if is_first => Refusal::width(found, None),
-                _ => Refusal::uneven(found, expected, self.first.unwrap_or(1)),
-            }
-            .into());
+            let others = match self.first {
+                Some(line) if !is_first => format!("line {line} has"),
+                _ => "the list has".to_owned(),
+            };
+            return Err(Refusal::uneven(found, expected, &others).into());
         }
         let ends = self.layout.ends.map(|end| fields[end]);
         let labels = ends.map(|field| field.text(line));
@@ -332,21 +315,30 @@ impl Collector {
             self.light += 1;
             return Ok(());
         }
+        if labels[0] == labels[1] {
+            if self.loops.is_empty() {
+                self.first_loop = self.line;
+            }
+            self.loops.push(labels[0].into());
+            return Ok(());
+        }
         if self.layout.width == Some(3) && self.thirds.len() == self.pairs.len() {
             let third = fields[3 - self.layout.ends[0] - self.layout.ends[1]].text(line);
             let third = third.parse::<u32>().ok();
             let third = third.filter(|_| self.pairs.len() < FIRST_LINES);
             self.thirds.extend(third);
         }
-        self.named(labels)
+        let [a, b] = self.nodes(labels)?;
+        self.pairs.push((a, b));
+        Ok(())
     }
 
     /// Refuses what is no pair of labels with numbers behind.
     fn check(&mut self, line: &str, fields: &[Field], ends: [Field; 2]) -> Result<(), Problem> {
-        for (field, column) in ends.iter().zip(self.layout.ends) {
+        for field in ends {
             let label = field.raw(line);
             if label.is_empty() {
-                return Err(Refusal::empty(column + 1).into());
+                return Err(Problem::EmptyField);
             }
             if field.quoted || self.is_known(label) {
                 continue;
@@ -360,7 +352,7 @@ impl Collector {
             let commas = label.contains(',') && self.layout.separator != Separator::Byte(b';');
             let bare = matches!(self.layout.head, Head::None | Head::Comment);
             if (blanks || commas) && bare || self.has_comma(label) {
-                return Err(Refusal::blank(label).into());
+                return Err(Refusal::quotes(label, BLANKS).into());
             }
         }
         if self.reading == Reading::Strict && matches!(self.layout.head, Head::None | Head::Line) {
@@ -381,10 +373,16 @@ impl Collector {
             _ => field.is_number(line),
         };
         if let Some(at) = numbers.iter().position(|field| !is_number(field)) {
-            return Err(Refusal::no_number(&numbers[at].text(line), at + 3).into());
+            let field = numbers[at].text(line);
+            if field.is_empty() {
+                return Err(Problem::EmptyField);
+            }
+            let what = format!("field {}, `{}`, is no number", at + 3, shown(&field));
+            return Err(Refusal::lines(what).into());
         }
-        match self.is_bare() && self.pairs.len() < FIRST_LINES && !poses::are(line, numbers) {
-            true => Err(Refusal::no_pose(fields.len()).into()),
+        let is_bare = self.reading == Reading::Strict && self.layout.head == Head::None;
+        match is_bare && self.pairs.len() < FIRST_LINES && !poses::are(line, numbers) {
+            true => Err(Refusal::lines(poses::MISSING).into()),
             false => Ok(()),
         }
     }
@@ -404,14 +402,15 @@ impl Collector {
     fn kind(&mut self, label: &str) -> Result<(), Problem> {
         let digits = label.bytes().all(|b| b.is_ascii_digit());
         if !digits && is_number(label.as_bytes()) {
-            return Err(Refusal::no_integer(label).into());
+            let what = "is a number and no integer: coordinates, perhaps";
+            return Err(Refusal::lines(format!("`{}` {what}", shown(label))).into());
         }
         if self.layout.head != Head::None {
             return Ok(());
         }
         let kinds = &mut self.kinds;
         if digits && kinds.names || !digits && kinds.integers {
-            return Err(Refusal::mixed(label, kinds.integers).into());
+            return Err(mixed(label, kinds.integers));
         }
         kinds.integers |= digits;
         kinds.names |= !digits;
@@ -431,7 +430,12 @@ impl Collector {
             _ => given.into_owned(),
         };
         let weight = given.parse::<Decimal>();
-        let weight = weight.map_err(|_| Refusal::no_weight(&given, column + 1))?;
+        let weight = weight.map_err(|_| {
+            let (column, given) = (column + 1, shown(&given));
+            Refusal::columns(format!(
+                "--min-weight: field {column}, `{given}`, is no number"
+            ))
+        })?;
         Ok(weight < *least)
     }
 
@@ -452,29 +456,6 @@ impl Collector {
             (Some(a), Some(b)) => Ok([a, b]),
             _ => Err(Problem::TooManyNodes),
         }
-    }
-
-    /// A pair of labels. One with itself that is left out is no camera by that.
-    fn named(&mut self, labels: [&str; 2]) -> Result<(), Problem> {
-        if labels[0] != labels[1] {
-            let [a, b] = self.nodes(labels)?;
-            self.pairs.push((a, b));
-            return Ok(());
-        }
-        if self.skip_loops {
-            self.loops.push(labels[0].into());
-            return Ok(());
-        }
-        // An option that leaves such lines out makes a graph of a table.
-        let is_sure = !self.is_bare() || is_image(labels[0]);
-        Err(match is_sure {
-            true => Problem::SelfLoop(labels[0].into()),
-            false => Refusal::table(format!(
-                "camera {} is paired with itself: a table, perhaps",
-                labels[0]
-            ))
-            .into(),
-        })
     }
 
     /// The labels by their numbers, if there are others than small integers.
@@ -507,17 +488,16 @@ impl Collector {
         match self.layout.head {
             Head::None if matches!(self.reading, Reading::Columns(_)) => None,
             Head::None => {
-                let commented = self.layout.commented.as_deref().map(Refusal::commented);
+                let commented = self.layout.commented.as_ref().map(|names| {
+                    let what = "the comment above the lines names their columns, and no pair";
+                    Refusal::table(format!("{what}: `{}`", shown(names)))
+                });
                 commented.or_else(|| list.doubt())
             }
             Head::Asked { line: false } => list.stands_apart(),
             Head::Line | Head::Comment => {
-                let [first, _] = self.layout.ends;
-                let name = self
-                    .layout
-                    .names
-                    .as_ref()
-                    .map_or("", |names| &*names[first]);
+                let names = self.layout.names.as_ref();
+                let name = names.map_or("", |names| &*names[self.layout.ends[0]]);
                 names::is_general(name).then(|| list.are_copies()).flatten()
             }
             Head::Asked { line: true } | Head::Own => None,
@@ -530,7 +510,11 @@ impl Collector {
             return Ok(None);
         };
         let shown = self.layout.names.as_deref().map(head).unwrap_or_default();
-        let fault = |refusal: Refusal| Err(Place::Line(line).fault(refusal.into()));
+        let head_or_pair = || {
+            let what = "may be a head, and it looks like the labels below";
+            let refusal = Refusal::odd("first", &shown, what);
+            Err(Place::Line(line).fault(refusal.into()))
+        };
         let asked = self.layout.head != Head::Line;
         let is_label = labels.iter().any(|label| self.is_known(label));
         if is_label && !asked {
@@ -540,10 +524,10 @@ impl Collector {
             let free = |name: &&str| name.contains([' ', '\t', ',']) && !is_image(name);
             let is_table = self.layout.ends != [0, 1] || self.layout.width != Some(2);
             if is_table || names.iter().any(free) {
-                return fault(Refusal::head_or_pair(&shown));
+                return head_or_pair();
             }
             if let Some(number) = names.iter().find(|name| is_number(name.as_bytes())) {
-                return fault(Refusal::mixed(number, false));
+                return Err(Place::Line(line).fault(mixed(number, false)));
             }
             self.layout.head = Head::None;
             self.layout.names = None;
@@ -552,13 +536,10 @@ impl Collector {
             self.pairs.insert(0, (a, b));
             return Ok(None);
         }
-        if self.pairs.is_empty() && self.light == 0 && self.loops.is_empty() {
-            return Err(Place::Input.fault(Refusal::only_head().into()));
-        }
         let shapes = labels.each_ref().map(|label| names::shape(label));
         let is_like = |name: &&str| shapes.contains(&names::shape(name));
         if !asked && self.labels().is_some_and(|names| names.iter().any(is_like)) {
-            return fault(Refusal::head_or_pair(&shown));
+            return head_or_pair();
         }
         Ok(Some(format!("the first line is a head: {shown}")))
     }
@@ -575,12 +556,17 @@ impl Collector {
             notes.push(head);
         }
         if self.kinds.padded && self.kinds.lengths {
-            return Err(fault(Refusal::padded().into()));
+            let what = "some numbers begin with zeros, and not all have as many digits";
+            return Err(fault(Refusal::lines(what).into()));
         }
         match self.doubt() {
             Some(doubt) if self.reading == Reading::Strict => return Err(fault(doubt.into())),
             Some(doubt) => notes.push(doubt.what),
             None => {}
+        }
+        if let (Some(label), false) = (self.loops.first(), self.skip_loops) {
+            let problem = Problem::SelfLoop(label.clone().into());
+            return Err(Place::Line(self.first_loop).fault(problem));
         }
         if self.pairs.is_empty() && self.singles.is_empty() {
             return Err(fault(Problem::NoNodes));
@@ -597,8 +583,7 @@ impl Collector {
             None => number_integers(&mut pairs, &singles),
         };
         let nodes = u32::try_from(nodes).map_err(|_| fault(Problem::TooManyNodes))?;
-        // Both refusals are impossible here: loops were refused line by line,
-        // and every end was numbered.
+        // Both refusals are impossible here: no pair is a loop, and every end was numbered.
         let (graph, merged) = Graph::from_pairs(nodes, pairs).map_err(|error| match error {
             GraphError::SelfLoop(node) => fault(Problem::SelfLoop(labels.label(node).into())),
             GraphError::OutOfRange { .. } => fault(Problem::TooManyNodes),
@@ -615,10 +600,9 @@ impl Collector {
 
     /// Says what was taken and what was left out.
     fn say(&self, read: &mut ReadAs) {
-        let kind = if self.names.is_some() {
-            "names"
-        } else {
-            "numbers"
+        let kind = match self.names {
+            Some(_) => "names",
+            None => "numbers",
         };
         read.taken = Some(self.layout.taken(kind));
         let mut ignore = |phrase: String| read.ignored.push(phrase);
@@ -635,13 +619,8 @@ impl Collector {
             ignore(format!("{} with a weight below {least}", lines(self.light)));
         }
         if !self.loops.is_empty() {
-            let pair = if self.loops.len() == 1 {
-                "pairs"
-            } else {
-                "pair"
-            };
             let lines = lines(self.loops.len() as u64);
-            ignore(format!("{lines} that {pair} a camera with itself"));
+            ignore(format!("{lines} with a pair of a camera with itself"));
         }
     }
 }
@@ -672,15 +651,40 @@ pub(super) fn text(bytes: &[u8]) -> Result<&str, Problem> {
     }
 }
 
+/// What is wrong with a field that another separator would cut.
+const BLANKS: &str = "has blanks or commas";
+
+/// A label among others of another kind.
+fn mixed(label: &str, integers: bool) -> Problem {
+    let (kind, others) = match integers {
+        true => ("no integer", "integers"),
+        false => ("a number", "names"),
+    };
+    let label = shown(label);
+    Refusal::lines(format!(
+        "`{label}` is {kind}, and the labels before it are {others}"
+    ))
+    .into()
+}
+
+/// More than a line.
+fn too_long() -> Problem {
+    Refusal::lines(format!("the line is longer than {LINE_LIMIT} bytes")).into()
+}
+
 /// Why an unquoted field is no label: it has neither letters nor digits, or is punctuated like a part of
 /// another notation: `(1` of `(1, 2)`, `2;` of `1 2;`, `key:` of `key: value`.
 fn unlike_a_label(field: &str) -> Option<Refusal> {
     let word = field.bytes().any(|b| b.is_ascii_alphanumeric() || b > 0x7f);
     if !word || field.starts_with("//") {
-        return Some(Refusal::no_label(field));
+        let what = format!(
+            "`{}` is neither the name of a camera nor a number",
+            shown(field)
+        );
+        return Some(Refusal::lines(what));
     }
     let punctuated = field.ends_with([';', ':']) || !brackets_close(field);
-    punctuated.then(|| Refusal::punctuated(field))
+    punctuated.then(|| Refusal::quotes(field, "is punctuated like another format"))
 }
 
 /// Whether every bracket in a field has its partner there.

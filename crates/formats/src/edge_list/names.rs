@@ -1,50 +1,13 @@
 //! What columns and images are called.
 
 /// Names of two columns with the ends of a pair, as [`plain`] writes them.
-const PAIRS: [[&str; 2]; 16] = [
-    ["source", "target"],
-    ["src", "dst"],
-    ["src", "tgt"],
-    ["from", "to"],
-    ["sourceid", "targetid"],
-    ["sourcenode", "targetnode"],
-    ["fromid", "toid"],
-    ["fromnode", "tonode"],
-    ["fromnodeid", "tonodeid"],
-    ["startid", "endid"],
-    ["queryimage", "mapimage"],
-    ["query", "reference"],
-    ["query", "db"],
-    ["i", "j"],
-    ["image", "neighbour"],
-    ["photo", "neighbour"],
-];
+const PAIRS: &str = "source-target src-dst src-tgt from-to sourceid-targetid sourcenode-targetnode fromid-toid \
+                     fromnode-tonode fromnodeid-tonodeid startid-endid queryimage-mapimage query-reference \
+                     query-db i-j image-neighbour photo-neighbour";
 
 /// Words for an image or a node: with two marks they name the ends of a pair, as `image1,image2`.
-const WORDS: [&str; 22] = [
-    "image",
-    "img",
-    "im",
-    "imageid",
-    "imgid",
-    "imagename",
-    "imgname",
-    "imagepath",
-    "photo",
-    "picture",
-    "view",
-    "viewid",
-    "node",
-    "nodeid",
-    "vertex",
-    "camera",
-    "cam",
-    "cameraid",
-    "camid",
-    "frame",
-    "frameid",
-    "keyframe",
-];
+const WORDS: &str = "image img im imageid imgid imagename imgname imagepath photo picture view viewid node nodeid \
+                     vertex camera cam cameraid camid frame frameid keyframe";
 
 /// The marks.
 const MARKS: [[&str; 2]; 6] = [
@@ -57,25 +20,16 @@ const MARKS: [[&str; 2]; 6] = [
 ];
 
 /// Names of columns with weights.
-const WEIGHTS: [&str; 12] = [
-    "weight",
-    "weights",
-    "score",
-    "matches",
-    "nummatches",
-    "nmatches",
-    "inliers",
-    "numinliers",
-    "ninliers",
-    "count",
-    "overlap",
-    "similarity",
-];
+const WEIGHTS: &str = "weight weights score matches nummatches nmatches inliers numinliers ninliers count overlap \
+                       similarity";
 
 /// Endings of the names of images.
-const IMAGES: [&str; 12] = [
-    "jpg", "jpeg", "png", "tif", "tiff", "bmp", "ppm", "pgm", "webp", "heic", "dng", "exr",
-];
+const IMAGES: &str = "jpg jpeg png tif tiff bmp ppm pgm webp heic dng exr";
+
+/// Whether a word is among others.
+fn is_among(word: &str, words: &str) -> bool {
+    words.split(' ').any(|one| one.eq_ignore_ascii_case(word))
+}
 
 /// A name of a column without what people write differently.
 fn plain(name: &str) -> String {
@@ -98,8 +52,13 @@ fn word(first: &str, second: &str) -> Option<String> {
 /// Whether these name two columns with the ends of pairs.
 pub(super) fn is_pair(first: &str, second: &str) -> bool {
     let [first, second] = [first, second].map(plain);
-    PAIRS.contains(&[&first, &second])
-        || word(&first, &second).is_some_and(|word| WORDS.contains(&&*word))
+    is_among(&format!("{first}-{second}"), PAIRS)
+        || word(&first, &second).is_some_and(|word| is_among(&word, WORDS))
+}
+
+/// Whether two marks alone tell these names from each other, whatever is between them.
+pub(super) fn are_marked(first: &str, second: &str) -> bool {
+    word(&plain(first), &plain(second)).is_some()
 }
 
 /// Whether a name of a pair says nothing of images or nodes: files are copied from a source to a target.
@@ -122,17 +81,14 @@ pub(super) fn pairs_among<S: AsRef<str>>(names: &[S]) -> Vec<[usize; 2]> {
 
 /// Whether a column of this name holds weights.
 pub(super) fn is_weight(name: &str) -> bool {
-    WEIGHTS.contains(&&*plain(name))
+    is_among(&plain(name), WEIGHTS)
 }
 
 /// Whether a label ends like the name of an image.
 pub(crate) fn is_image(label: &str) -> bool {
-    let ending = label.rsplit_once('.').map(|(_, ending)| ending);
-    ending.is_some_and(|ending| {
-        IMAGES
-            .iter()
-            .any(|image| image.eq_ignore_ascii_case(ending))
-    })
+    label
+        .rsplit_once('.')
+        .is_some_and(|(_, ending)| is_among(ending, IMAGES))
 }
 
 /// A label with every run of digits replaced by one, and a single letter by another.
@@ -145,10 +101,9 @@ pub(super) fn shape(label: &str) -> String {
             false => shape.push(c),
         }
     }
-    if shape.len() == 1 {
-        "x".to_owned()
-    } else {
-        shape
+    match shape.len() {
+        1 => "x".to_owned(),
+        _ => shape,
     }
 }
 

@@ -9,6 +9,10 @@ use crate::edge_list::fields::Field;
 /// How far a written rotation may be from one.
 const TOLERANCE: f64 = 0.01;
 
+/// What is wrong with lines of so many fields that are none.
+pub(super) const MISSING: &str = "lines of 9 or 14 fields are pairs with relative poses, and there is no unit quaternion \
+                                  in fields 3 to 6 of 9, no rotation in fields 3 to 11 of 14";
+
 /// Whether the fields behind a pair are a pose, if there are 7 or 12 of them.
 pub(super) fn are(line: &str, further: &[Field]) -> bool {
     let values: Vec<f64> = further

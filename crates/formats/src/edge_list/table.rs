@@ -4,10 +4,13 @@
 
 use super::columns::{Column, Columns, ListOptions};
 use super::fields::{Field, Separator, is_number};
+use super::likely::List;
 use super::names::{self, is_image};
-use super::refusal::Refusal;
+use super::nodes::Index;
+use super::refusal::{self, Refusal, shown};
 use super::{Reading, fields};
 use crate::error::Problem;
+use viewcert::wording::counted;
 
 /// How many of the first lines say how all are cut.
 const LINES: usize = 200;
@@ -22,7 +25,7 @@ pub(crate) fn is_own(head: &[u8]) -> bool {
 }
 
 /// How the lines of a list are cut and used.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Layout {
     pub(super) separator: Separator,
     /// How many fields each line has; any number, if the first two are the pair.
@@ -41,9 +44,10 @@ pub(super) struct Layout {
 }
 
 /// What says that a text is a list of pairs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Head {
     /// Nothing.
+    #[default]
     None,
     /// The first line, unless its names are labels.
     Line,
@@ -72,16 +76,10 @@ impl Layout {
 
     /// Whether usual lines may have a parser of their own: the separator of these.
     pub(super) fn is_usual(&self) -> bool {
-        let separators = [
-            Separator::Any,
-            Separator::Blank,
-            Separator::Byte(b','),
-            Separator::Byte(b'\t'),
-        ];
         self.ends == [0, 1]
             && self.weight.is_none()
             && self.attributes.is_none()
-            && separators.contains(&self.separator)
+            && self.separator != Separator::Byte(b';')
     }
 
     /// Cuts a line.
@@ -97,12 +95,10 @@ impl Layout {
         match (fields.len(), attributes) {
             (0, None) => return Ok(()),
             (2, Some(_)) => {}
-            _ => return Err(Refusal::attributes().into()),
+            _ => return Err(unlike_others()),
         }
         if self.weight.is_some() {
-            let weight = attributes
-                .and_then(weight)
-                .ok_or_else(Refusal::attributes)?;
+            let weight = attributes.and_then(weight).ok_or_else(unlike_others)?;
             // Nothing but brackets and separators follows it.
             let start = line.rfind(weight).unwrap_or(0);
             fields.push(Field::plain(start, start + weight.len()));
@@ -150,13 +146,15 @@ impl Layout {
         if others.len() > SHOWN {
             shown.push(format!("and {} more", others.len() - SHOWN));
         }
-        let word = if others.len() == 1 {
-            "column"
-        } else {
-            "columns"
-        };
-        (!others.is_empty()).then(|| format!("{word} {}", shown.join(", ")))
+        let plural = if others.len() == 1 { "" } else { "s" };
+        (!others.is_empty()).then(|| format!("column{plural} {}", shown.join(", ")))
     }
+}
+
+/// A line without the attributes that others have.
+fn unlike_others() -> Problem {
+    let remedy = "mend the line, or write the list with data=False";
+    Refusal::new("two names and `{...}` are expected", remedy).into()
 }
 
 /// A line before and in its `{...}`, which is its end.
@@ -220,48 +218,53 @@ impl<'a> Sample<'a> {
             .collect()
     }
 
-    /// Whether the first line has words alone, above numbers in each of the first two columns or below
-    /// others.
+    /// Whether the first line has words alone, above a column of numbers or of images.
     fn has_head(&self, separator: Separator) -> bool {
         let cells = self.cells(separator);
         let Some((first, below)) = cells.split_first() else {
             return false;
         };
         let number = |cell: &String| is_number(cell.as_bytes());
-        let above = |column: usize| {
+        let is_word = |cell| !number(cell) && !is_image(cell);
+        let above = |column: usize, is: &dyn Fn(&String) -> bool| {
             let mut cells = below.iter().map(|line| line.get(column));
-            cells.all(|cell| cell.is_some_and(number))
+            cells.all(|cell| cell.is_some_and(is))
         };
-        !below.is_empty()
-            && !first.iter().any(number)
-            && (0..first.len()).any(above)
-            && (above(0) || above(1) || first.len() > 3)
+        let headed = |column| above(column, &number) || above(column, &|cell| is_image(cell));
+        let has_words = first.len() > 1 && first.iter().all(is_word);
+        !below.is_empty() && has_words && (0..first.len()).any(headed)
     }
 
-    /// The only two columns with names of images, if they can be pairs, by name or number.
+    /// The columns of a table that are likely to be pairs, by name or number: the two that marks alone tell
+    /// from each other, else the only two, which hold names.
     fn columns(&self, separator: Separator) -> Option<String> {
-        let cells = self.cells(separator);
-        let skipped = usize::from(!cells.first()?.iter().any(|cell| is_image(cell)));
-        let below = cells.get(skipped..).filter(|below| below.len() > 1)?;
-        let width = below[0].len();
-        if below.iter().any(|line| line.len() != width) || cells[0].len() != width {
+        const MOST: usize = 16;
+        let (cells, headed) = (self.cells(separator), self.has_head(separator));
+        let below = cells.get(usize::from(headed)..)?;
+        let names = cells.first()?;
+        if below.len() < 2 || below.iter().any(|line| line.len() != names.len()) {
             return None;
         }
-        let images = |column: &usize| below.iter().all(|line| is_image(&line[*column]));
-        let [a, b] = (0..width).filter(images).collect::<Vec<_>>()[..] else {
-            return None;
+        let marked = |a: usize, b: usize| headed && names::are_marked(&names[a], &names[b]);
+        let two = (0..names.len().min(MOST)).flat_map(|b| (0..b).map(move |a| (a, b)));
+        let likely = two.filter_map(|(a, b)| {
+            let is_marked = marked(a, b);
+            are_likely(below, [a, b], headed, is_marked).then_some((is_marked, [a, b]))
+        });
+        let (marked, others): (Vec<_>, Vec<_>) = likely.partition(|(is_marked, _)| *is_marked);
+        let found = match (&marked[..], &others[..]) {
+            ([(_, one)], _) | ([], [(_, one)]) => one,
+            _ => return None,
         };
-        let different = |column: usize| {
-            let mut met = std::collections::HashSet::new();
-            below.iter().all(|line| met.insert(&line[column]))
+        let called = found.map(|column| match headed {
+            true => names[column].clone(),
+            false => (column + 1).to_string(),
+        });
+        let is_clear = |name: &String| {
+            let once = names.iter().filter(|other| *other == name).count() == 1;
+            once && !name.is_empty() && !name.contains([',', ' ', '\'', '"'])
         };
-        if different(a) && different(b) {
-            return None;
-        }
-        Some(match skipped {
-            0 => format!("{},{}", a + 1, b + 1),
-            _ => format!("{},{}", cells[0][a], cells[0][b]),
-        })
+        (!headed || called.iter().all(is_clear)).then(|| called.join(","))
     }
 
     /// How the lines are cut: by a semicolon, a tab or a comma that cuts all into as many fields, else
@@ -273,13 +276,8 @@ impl<'a> Sample<'a> {
             let mut widths = self.lines.iter().map(|line| {
                 let cut = separator.split(line, &mut found);
                 // `1 2;` ends with a semicolon, and is not cut by it.
-                cut.map_or(0, |()| {
-                    if ends_open(line, &found) {
-                        0
-                    } else {
-                        found.len()
-                    }
-                })
+                let is_cut = cut.is_ok() && !ends_open(line, &found);
+                if is_cut { found.len() } else { 0 }
             });
             let first = widths.next().unwrap_or(0);
             first > 1 && widths.all(|width| width == first)
@@ -291,12 +289,39 @@ impl<'a> Sample<'a> {
     }
 }
 
+/// Whether two columns may be pairs: nothing speaks against it. Integers need marks in the head, and without
+/// one labels have to be images.
+fn are_likely(lines: &[Vec<String>], [a, b]: [usize; 2], headed: bool, marked: bool) -> bool {
+    let number = |line: &Vec<String>| Some((line[a].parse().ok()?, line[b].parse().ok()?));
+    let numbers: Option<Vec<(u32, u32)>> = lines.iter().map(number).collect();
+    let mut index = Index::default();
+    let ends = |line: &Vec<String>| Some((index.node(&line[a])?, index.node(&line[b])?));
+    let names: Vec<(u32, u32)> = lines.iter().filter_map(ends).collect();
+    let labels = index.labels();
+    let labels: Vec<&str> = labels.iter().map(|label| &**label).collect();
+    let are_names = labels.iter().all(|label| match headed {
+        true => !label.is_empty() && !is_number(label.as_bytes()),
+        false => is_image(label),
+    });
+    let width = if lines[0].len() == 3 { 3 } else { 2 };
+    let third = |line: &Vec<String>| line[3 - a - b].parse().ok();
+    let thirds = lines.iter().filter(|_| width == 3).map_while(third);
+    let pairs = numbers.as_ref().unwrap_or(&names);
+    let list = List {
+        pairs,
+        labels: numbers.is_none().then_some(&labels[..]),
+        thirds: &thirds.collect::<Vec<u32>>(),
+        width,
+        ..List::default()
+    };
+    let are_labels = are_names || marked && numbers.is_some();
+    are_labels && pairs.iter().all(|(a, b)| a != b) && list.doubt().is_none()
+}
+
 /// Whether the last field of a line is empty.
 fn ends_open(line: &str, fields: &[Field]) -> bool {
-    line.ends_with(';')
-        && fields
-            .last()
-            .is_some_and(|field| field.raw(line).is_empty())
+    let last = fields.last();
+    line.ends_with(';') && last.is_some_and(|field| field.raw(line).is_empty())
 }
 
 /// Whether a byte stands in a line and in no quotes.
@@ -331,18 +356,13 @@ pub(super) fn layout(
     let sample = Sample::of(text, whole);
     let mut layout = Layout {
         separator: sample.separator(),
-        width: None,
         ends: [0, 1],
-        weight: None,
-        names: None,
-        head: Head::None,
-        attributes: None,
-        commented: None,
+        ..Layout::default()
     };
     let Some(first) = sample.lines.first() else {
         return match whole {
             true => Ok(layout),
-            false => Err(Refusal::long(head.len()).into()),
+            false => Err(super::too_long()),
         };
     };
     if sample.is_own && reading == Reading::Strict && options.columns.is_none() {
@@ -355,10 +375,9 @@ pub(super) fn layout(
     {
         let weighs = |line: &&str| names_and_attributes(line).1.and_then(weight).is_some();
         let all = sample.lines.iter().all(weighs);
-        layout.attributes = Some(if all {
-            Attributes::Weight
-        } else {
-            Attributes::Any
+        layout.attributes = Some(match all {
+            true => Attributes::Weight,
+            false => Attributes::Any,
         });
         layout.width = Some(2);
         if all && options.min_weight.is_some() {
@@ -405,7 +424,13 @@ pub(super) fn layout(
             let words = comment.filter(|words| words.iter().all(word));
             layout.commented = words.map(|words| words.join(" "));
         }
-        _ => return Err(Refusal::heads(&names).into()),
+        _ => {
+            let what = format!(
+                "the head `{}` names the columns of pairs twice",
+                refusal::head(&names)
+            );
+            return Err(Refusal::columns(what).into());
+        }
     }
     if reading == Reading::Lenient && layout.head == Head::None {
         // The first two fields, between whatever separates them.
@@ -413,18 +438,21 @@ pub(super) fn layout(
             layout.separator = Separator::Any;
         }
         layout.width = layout.width.filter(|_| options.min_weight.is_some());
-    } else if layout.head == Head::None && !WIDTHS.contains(&layout.width.unwrap_or(0)) {
-        let columns = sample.columns(layout.separator);
-        return Err(match sample.has_head(layout.separator) {
-            true => Refusal::unknown_head(&names, columns),
-            false => Refusal::width(names.len(), columns),
+    } else if layout.head == Head::None {
+        let headed = sample.has_head(layout.separator);
+        if headed || !WIDTHS.contains(&names.len()) {
+            let what = match headed {
+                true => format!(
+                    "the head `{}` names no two columns with images or nodes",
+                    refusal::head(&names)
+                ),
+                false => format!(
+                    "the line has {}, and a list without a head has 2, 3 with a number, or 9 or 14 with a relative pose",
+                    counted(names.len(), "field")
+                ),
+            };
+            return Err(Refusal::unnamed(what, sample.columns(layout.separator)).into());
         }
-        .into());
-    } else if layout.head == Head::None
-        && reading == Reading::Strict
-        && sample.has_head(layout.separator)
-    {
-        return Err(Refusal::unknown_head(&names, sample.columns(layout.separator)).into());
     }
     weighed(layout, options)
 }
@@ -465,17 +493,14 @@ fn asked(
                 true => names.join(", "),
                 false => format!("{} columns", names.len()),
             };
-            Refusal::no_column(column, &there)
+            let column = shown(&column.to_string()).to_owned();
+            Refusal::columns(format!("there is no column `{column}`; there are {there}"))
         })
     };
     layout.ends = [place(&columns.ends[0])?, place(&columns.ends[1])?];
     layout.weight = columns.weight.as_ref().map(place).transpose()?;
-    let images = |line: &Vec<String>| {
-        let images = layout
-            .ends
-            .map(|end| line.get(end).is_some_and(|label| is_image(label)));
-        images == [true; 2]
-    };
+    let image = |line: &Vec<String>, end: usize| line.get(end).is_some_and(|label| is_image(label));
+    let images = |line: &Vec<String>| layout.ends.iter().all(|&end| image(line, end));
     let cells = sample.cells(layout.separator);
     let above = cells.split_first().is_some_and(|(first, below)| {
         !images(first) && below.len() > 1 && below.iter().all(images)
@@ -499,6 +524,6 @@ fn weighed(mut layout: Layout, options: &ListOptions) -> Result<Layout, Problem>
     layout.weight = named.or(third);
     match layout.weight {
         Some(_) => Ok(layout),
-        None => Err(Refusal::no_weights().into()),
+        None => Err(Refusal::columns("--min-weight: there is no column of weights").into()),
     }
 }

@@ -91,7 +91,7 @@ fn what_is_no_bare_list_is_refused() {
             "a b 1 1 0 0 1 2 3\nb c 1 0 0 0 1 2 3\n",
             "there is no unit quaternion",
         ),
-        ("a b 1 0 0 0 1 0 0 0 -1 7 8 9\n", "there is no rotation"),
+        ("a b 1 0 0 0 1 0 0 0 -1 7 8 9\n", "no rotation in fields"),
         ("a b c,d\n", "`a b c` has blanks or commas"),
         ("source target\n0, 1\n", "`0,` has blanks or commas"),
         ("# viewcert pairs\n0, 1\n", "`0,` has blanks or commas"),
@@ -100,7 +100,7 @@ fn what_is_no_bare_list_is_refused() {
             "source,target\nfrom,source\nfrom,to x\n",
             "may be a head, and it looks like the labels",
         ),
-        ("a,b\nb,\n", "field 2, where the name of a camera belongs"),
+        ("a,b\nb,\n", "there is an empty field"),
         ("a -> b\n", "`->` is neither"),
         ("-> b\n", "`->` is neither"),
         ("(1, 2)\n(2, 3)\n", "punctuated"),
@@ -135,7 +135,7 @@ fn what_is_no_bare_list_is_refused() {
         ),
         (
             "foo bar\na.jpg b.jpg\na.jpg c.jpg\n",
-            "may be a head or counts",
+            "the head `foo,bar` names no two columns",
         ),
         (
             "rig, cam0, 1, 0, 0, 0, 0, 0, 0\nrig, cam1, 1, 0, 0, 0, 1, 0, 0\n",
@@ -143,7 +143,7 @@ fn what_is_no_bare_list_is_refused() {
         ),
         (
             "# node degree\n1 2\n2 3\n1 3\n",
-            "names their columns, `node degree`",
+            "names their columns, and no pair: `node degree`",
         ),
     ] {
         let found = refusal(text.as_bytes());
@@ -204,13 +204,13 @@ fn heads() {
             "source,target,img1,img2\n1,2,3,4\n",
             "names the columns of pairs twice",
         ),
-        ("image1,image2\n", "there are no pairs"),
+        ("image1,image2\n", "the graph is empty"),
         ("\"from\" \"to\"\n\"1\" \"a\" \"b\"\n", "row.names = FALSE"),
         (
             "source,target\na.png,b.jpg\nc.png,d.jpg\n",
             "copies, perhaps",
         ),
-        ("source,target\n1,\n", "is empty"),
+        ("source,target\n1,\n", "there is an empty field"),
         (
             "cam1 cam2\ncam5 cam7\ncam5 cam8\n",
             "may be a head, and it looks like the labels",
@@ -265,6 +265,85 @@ fn columns() {
     assert_eq!(with(words, Some("foo,bar"), None), Ok((3, 2)));
 }
 
+/// The two columns that a refusal names are those of the pairs, or it names none.
+#[test]
+fn suggested_columns() {
+    for (text, columns) in [
+        ("left,right,score\na,b,7\nb,c,8\na,c,9\n", "left,right"),
+        ("left,right\n1,2\n2,3\n1,3\n", "left,right"),
+        ("left right\na.jpg b.jpg\nb.jpg c.jpg\n", "left,right"),
+        (
+            "id;item1;item2;n\n0;1;2;50\n1;2;3;60\n2;1;3;70\n",
+            "item1,item2",
+        ),
+        ("query_name,db_name,kind\na,b,x\nb,c,y\na,c,x\n", ""),
+        (
+            "photo,other,n\na.jpg,b.jpg,5\nb.jpg,c.jpg,6\n",
+            "photo,other",
+        ),
+        ("V1,V2\n1,2\n2,3\n1,3\n", "V1,V2"),
+        ("a.jpg b.jpg 1 2 3\na.jpg c.jpg 1 2 3\n", "1,2"),
+        // Tables of something else, of several twos, of triangles.
+        ("camera,point\n0,1\n0,2\n1,2\n", ""),
+        ("image,mask\na.jpg,a_mask.png\nb.jpg,b_mask.png\n", ""),
+        ("id1,id2,id3\n0,1,2\n0,2,3\n0,3,4\n", ""),
+        ("x1,y1,x2,y2\n10,4,17,9\n30,2,36,8\n50,7,58,9\n", ""),
+        ("left,right,score\n1,1,7\n2,2,8\n3,3,9\n", ""),
+        ("1 2 3 4\n2 3 4 5\n1 3 2 2\n", ""),
+    ] {
+        let found = refusal(text.as_bytes());
+        match columns {
+            "" => assert!(!found.contains("--columns"), "{text}: {found}"),
+            _ => {
+                let says = format!("if columns {columns} hold the pairs, say --columns {columns}");
+                assert!(found.ends_with(&says), "{text}: {found}");
+                let options = ListOptions {
+                    columns: Some(columns.parse().unwrap()),
+                    ..ListOptions::default()
+                };
+                let whole = (text.as_bytes(), true);
+                let read = read_with(text.as_bytes(), whole, Reading::Strict, &options);
+                assert!(read.is_ok(), "{text}: {:?}", read.err());
+            }
+        }
+    }
+}
+
+/// Pairs of a camera with itself: the option that leaves them out is named where the rest is a list.
+#[test]
+fn loops() {
+    let skipping = ListOptions {
+        skip_loops: true,
+        ..ListOptions::default()
+    };
+    for (text, line) in [
+        ("1 2\n2 3\n5 5\n1 3\n", 3),
+        ("3 3\n1 2\n2 3\n3 1\n", 1),
+        ("a.jpg b.jpg\nb.jpg b.jpg\nb.jpg c.jpg\n", 2),
+        ("source,target\n1,2\n2,2\n2,3\n", 3),
+        ("0 1 {}\n1 1 {}\n1 2 {}\n0 2 {}\n", 2),
+    ] {
+        let found = refusal(text.as_bytes());
+        assert!(
+            found.starts_with(&format!("list.txt:{line}: camera ")),
+            "{text}: {found}"
+        );
+        assert!(found.contains(" is paired with itself; ") && found.contains("--skip-loops"));
+        let whole = (text.as_bytes(), true);
+        let read = read_with(text.as_bytes(), whole, Reading::Strict, &skipping);
+        assert!(read.is_ok(), "{text}: {:?}", read.err());
+    }
+    for text in [
+        "0 0\n1 1\n2 2\n",
+        "0 3\n1 1\n2 4\n3 1\n",
+        "1 1 2\n2 1 3\n3 2 3\n4 3 4\n",
+        "640 480\n7 7\n640 480\n",
+    ] {
+        let found = refusal(text.as_bytes());
+        assert!(!found.contains("--skip-loops"), "{text}: {found}");
+    }
+}
+
 #[test]
 fn whoever_knows_better_takes_the_first_two_fields() {
     let (edges, labels, _) = listed(b"1 2 x\n2 b -> ]\n  9\n", Reading::Lenient);
@@ -276,9 +355,7 @@ fn whoever_knows_better_takes_the_first_two_fields() {
         "{notes:?}"
     );
     let found = refused(b"a b\nb c d\n", Reading::Columns(2));
-    assert!(
-        found.starts_with("list.txt:2: the line has 3 fields, and lines of this format have 2")
-    );
+    assert!(found.starts_with("list.txt:2: the line has 3 fields, and line 1 has 2"));
 }
 
 #[test]
@@ -299,7 +376,7 @@ fn repeated_pairs_are_noted() {
 #[test]
 fn late_lines_are_read_as_early_ones() {
     for (columns, further) in [(2, ""), (3, " 0.5"), (9, " 1 0 0 0 5 6 -7e1")] {
-        let mut text: String = (0..100)
+        let mut text: String = (1..101)
             .map(|v| format!("{v} {}{further}\n", v + 1))
             .collect();
         let (edges, ..) = listed(text.as_bytes(), Reading::Strict);
@@ -358,15 +435,8 @@ fn integers_are_sorted_by_value_however_large() {
 
 #[test]
 fn refusals_name_the_line() {
-    let found = refusal(b"1 2\n\n5 5\n");
-    assert!(
-        found.starts_with("list.txt:3: camera 5 is paired with itself: a table, perhaps"),
-        "{found}"
-    );
     let head = refusal(b"source target\n1 2\n5 5\n");
     assert!(head.starts_with("list.txt:3: camera 5 is paired with itself; remove the pair"));
-    let images = refusal(b"a.jpg b.jpg\nb.jpg b.jpg\n");
-    assert!(images.contains("--skip-loops"), "{images}");
     for (text, phrase) in [
         (&b"1 2\n2 \xff\n"[..], "this is no UTF-8 text; save it"),
         (b"1 2\n1 2\xc3\n", "this is no UTF-8 text; save it"),

@@ -101,6 +101,16 @@ pub(crate) fn has_no_points(folder: &Path) -> bool {
     })
 }
 
+/// The folder of a model without points, if a path is that of its file of points.
+pub(crate) fn of_no_points(path: &Path) -> Option<&Path> {
+    let folder = path.parent()?;
+    // The folder of a bare name.
+    let here = folder.as_os_str().is_empty();
+    let folder = if here { Path::new(".") } else { folder };
+    let name = Part::Points.file(encoding_in(folder)?);
+    (path.file_name()? == name && has_no_points(folder)).then_some(folder)
+}
+
 /// A model: who sees what, and everything else as it was written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Model {

@@ -300,6 +300,12 @@ fn sampled_again(outer: Sampled, compression: Compression) -> Result<Sampled, Pr
 }
 
 fn of_sampled(path: Option<&Path>, name: String, sampled: Sampled, options: ReadOptions) -> Graphs {
+    if options.format.is_none()
+        && let Some(folder) = path.and_then(model::of_no_points)
+    {
+        let graph = tracks::read_folder(folder, options.tracks.unwrap_or_default());
+        return Box::new(std::iter::once(tracks_called(&name, graph)));
+    }
     if let Some(tracks) = options.tracks
         && !sampled.head.starts_with(colmap::MAGIC)
     {

@@ -52,26 +52,14 @@ pub(crate) fn kind(head: &[u8], whole: bool) -> Option<TrackFile> {
         let encoding = Encoding::Binary;
         return Some(TrackFile::Colmap { part, encoding });
     }
-    let text = head.trim_ascii_start();
-    if text.starts_with(b"NVM_V") {
-        return Some(TrackFile::Nvm);
-    }
-    if text.starts_with(b"# Bundle file") {
-        return Some(TrackFile::Bundler);
+    if let Some(file) = by_first_words(head) {
+        return Some(file);
     }
     let colmap = |part| {
         let encoding = Encoding::Text;
         Some(TrackFile::Colmap { part, encoding })
     };
-    for (comment, part) in [
-        ("# 3D point list", Part::Points),
-        ("# Image list", Part::Images),
-        ("# Camera list", Part::Cameras),
-    ] {
-        if text.starts_with(comment.as_bytes()) {
-            return colmap(part);
-        }
-    }
+    let text = head.trim_ascii_start();
     let lines = words::first_lines(text, whole);
     let lines: Vec<&[&[u8]]> = lines.iter().map(Vec::as_slice).collect();
     let integers = |line: &[&[u8]]| line.iter().all(|word| words::integer(word).is_some());
@@ -88,6 +76,11 @@ pub(crate) fn kind(head: &[u8], whole: bool) -> Option<TrackFile> {
             Some(TrackFile::OpenMvgMatches)
         }
         [first, ..] if is_point(first) => colmap(Part::Points),
+        [[id, model, sizes @ ..], ..]
+            if integers(&[id]) && sizes.len() > 3 && numbers(sizes) && is_camera(model) =>
+        {
+            colmap(Part::Cameras)
+        }
         [first, ..]
             if first.len() >= 10
                 && !numbers(first)
@@ -98,6 +91,27 @@ pub(crate) fn kind(head: &[u8], whole: bool) -> Option<TrackFile> {
         }
         _ => None,
     }
+}
+
+/// Which file a text is by what stands in its first line.
+pub(crate) fn by_first_words(head: &[u8]) -> Option<TrackFile> {
+    let encoding = Encoding::Text;
+    let colmap = |part| TrackFile::Colmap { part, encoding };
+    let text = head.trim_ascii_start();
+    [
+        ("NVM_V", TrackFile::Nvm),
+        ("# Bundle file", TrackFile::Bundler),
+        ("# 3D point list", colmap(Part::Points)),
+        ("# Image list", colmap(Part::Images)),
+        ("# Camera list", colmap(Part::Cameras)),
+    ]
+    .into_iter()
+    .find_map(|(words, file)| text.starts_with(words.as_bytes()).then_some(file))
+}
+
+/// Whether this is the name of a model of cameras: capitals, as SIMPLE_RADIAL.
+fn is_camera(word: &[u8]) -> bool {
+    word.iter().all(|b| b.is_ascii_uppercase() || *b == b'_')
 }
 
 /// Whether this is a line of points3D.txt: a number, three coordinates, a colour, an error, and

@@ -26,7 +26,7 @@ pub(crate) use doubled::Places;
 pub(crate) use frames::{Frame, Pose, Rig, read as read_frames};
 pub(crate) use graph::TrackGraph;
 pub(crate) use join::Joined;
-pub(crate) use kind::{TrackFile, kind};
+pub(crate) use kind::{TrackFile, by_first_words, kind};
 
 use std::io::Read;
 use std::path::Path;
