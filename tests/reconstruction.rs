@@ -329,3 +329,20 @@ fn named_subcommands_are_those_of_colmap() {
         );
     }
 }
+
+/// The remedies of docs/symptoms.md for focal lengths, weak pairs, rigs and positions, followed to a model
+/// that is mended. Its exit code says so.
+#[test]
+#[ignore = "needs pycolmap"]
+fn remedies_mend_models() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let options = [
+        ("--page", root.join("docs/symptoms.md")),
+        ("--focal", samples().join("photos_banana.db")),
+        ("--weak", samples().join("photos_monstree.db")),
+    ];
+    let options = options.iter();
+    let options = options.flat_map(|(name, path)| [OsStr::new(*name), path.as_os_str()]);
+    let said = said_by("remedies.py", options);
+    assert_eq!(said.lines().count(), 9, "{said}");
+}

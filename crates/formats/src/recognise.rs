@@ -333,6 +333,7 @@ fn by_first_words(head: &[u8]) -> Option<Problem> {
         .or_else(tracks)
         .or_else(|| kapture(text))
         .or_else(|| adjacency(text))
+        .or_else(|| lgl(text))
 }
 
 /// The refusal of a file with tracks, or of a part of a model.
@@ -359,6 +360,24 @@ fn adjacency(text: &str) -> Option<Problem> {
         foreign(
             "an adjacency list of networkx",
             networkx!("networkx.read_adjlist('FILE')"),
+        )
+    })
+}
+
+/// Neighbours, perhaps with weights, below `# node`, as igraph writes them.
+fn lgl(text: &str) -> Option<Problem> {
+    let lines = text.lines().filter(|line| !line.trim().is_empty());
+    let (nodes, others): (Vec<&str>, Vec<&str>) = lines.partition(|line| line.starts_with("# "));
+    let is_lgl = text.starts_with("# ")
+        && nodes.len() > 2
+        && 3 * nodes.len() >= others.len()
+        && nodes
+            .iter()
+            .all(|node| node.split_whitespace().count() == 2);
+    is_lgl.then(|| {
+        foreign(
+            "a list of neighbours (LGL)",
+            "write pairs in its place (igraph: write_edgelist)",
         )
     })
 }

@@ -85,15 +85,17 @@ impl List<'_> {
         is_odd.then(|| self.odd("last", last, what))
     }
 
-    /// The numbers of columns as pandas writes them above tables without names, where nothing but this line
-    /// has the 0.
+    /// The numbers of columns as pandas writes them above tables without names: of two only where nothing but
+    /// this line has the 0.
     fn of_pandas(&self, pairs: &[(u32, u32)]) -> Option<Refusal> {
         let (&(a, b), below) = pairs.split_first()?;
-        let third = self.width == 2 || self.width == 3 && self.thirds.first() == Some(&2);
-        let numbered = third && (self.integer(a), self.integer(b)) == (0, 1);
-        let is_alone = !below.is_empty() && below.iter().all(|&(c, d)| c != a && d != a);
+        // A third column makes it sure enough.
+        let three = self.width == 3 && self.thirds.first() == Some(&2);
+        let numbered = (self.integer(a), self.integer(b)) == (0, 1) && (three || self.width == 2);
+        let is_alone = three || below.iter().all(|&(c, d)| c != a && d != a);
         let what = "may be the numbers of the columns as pandas writes them";
-        (numbered && is_alone && !is_chain(pairs)).then(|| self.odd("first", (a, b), what))
+        (numbered && is_alone && !below.is_empty() && !is_chain(pairs))
+            .then(|| self.odd("first", (a, b), what))
     }
 
     /// The numbers of nodes and pairs, above or below these.

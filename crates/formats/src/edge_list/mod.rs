@@ -296,11 +296,8 @@ impl Collector {
             .width
             .or((self.layout.head == Head::Own).then_some(2));
         if let Some(expected) = expected.filter(|&expected| expected != found) {
-            let others = match self.first {
-                Some(line) if !is_first => format!("line {line} has"),
-                _ => "the list has".to_owned(),
-            };
-            return Err(Refusal::uneven(found, expected, &others).into());
+            let first = self.first.filter(|_| !is_first);
+            return Err(Refusal::uneven(found, expected, first).into());
         }
         let ends = self.layout.ends.map(|end| fields[end]);
         let labels = ends.map(|field| field.text(line));

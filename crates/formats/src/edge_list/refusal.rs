@@ -24,8 +24,8 @@ const QUOTES: &str =
     "separate all fields by the same character, and put names with blanks or punctuation in quotes";
 const COLUMNS: &str = "name the two columns of the pairs by their names or their numbers from 1, and perhaps \
                        that of the weights (--columns img1,img2,score)";
-const NUMBER: &str = "if the first field of each line is its number, write the list without it (R: row.names = \
-                      FALSE, pandas: index=False); put names with blanks in quotes";
+const EVEN: &str = "write as many on every line, without numbers of lines (R: row.names = FALSE, pandas: index=False), \
+                    and names with blanks in quotes";
 
 impl Refusal {
     pub(crate) fn new(what: impl Into<String>, remedy: impl Into<String>) -> Self {
@@ -69,13 +69,15 @@ impl Refusal {
         }
     }
 
-    /// A number of fields that others do not have.
-    pub(super) fn uneven(found: usize, expected: usize, others: &str) -> Self {
-        let found_fields = counted(found, "field");
-        let remedy = if found == expected + 1 { NUMBER } else { WRITE };
+    /// A number of fields that others do not have, of which one is in a line.
+    pub(super) fn uneven(found: usize, expected: usize, line: Option<u64>) -> Self {
+        let others = match line {
+            Some(line) => format!("line {line} has {expected}"),
+            None => format!("{expected} are expected"),
+        };
         Self::new(
-            format!("the line has {found_fields}, and {others} {expected}"),
-            remedy,
+            format!("the line has {}, and {others}", counted(found, "field")),
+            EVEN,
         )
     }
 }

@@ -224,14 +224,14 @@ impl<'a> Sample<'a> {
         let Some((first, below)) = cells.split_first() else {
             return false;
         };
-        let number = |cell: &String| is_number(cell.as_bytes());
-        let is_word = |cell| !number(cell) && !is_image(cell);
-        let above = |column: usize, is: &dyn Fn(&String) -> bool| {
+        let number = |cell: &str| is_number(cell.as_bytes());
+        let above = |column: usize, is: fn(&str) -> bool| {
             let mut cells = below.iter().map(|line| line.get(column));
-            cells.all(|cell| cell.is_some_and(is))
+            cells.all(|cell| cell.is_some_and(|cell| is(cell)))
         };
-        let headed = |column| above(column, &number) || above(column, &|cell| is_image(cell));
-        let has_words = first.len() > 1 && first.iter().all(is_word);
+        let images = !first.iter().any(|cell| is_image(cell));
+        let headed = |column| above(column, number) || images && above(column, is_image);
+        let has_words = first.len() > 1 && !first.iter().any(|cell| number(cell));
         !below.is_empty() && has_words && (0..first.len()).any(headed)
     }
 

@@ -114,7 +114,7 @@ fn what_is_no_bare_list_is_refused() {
         ("0 7\n0 8\n1 7\n1 9\n", "hardly a number in common"),
         ("640 480\n", "one line of two numbers"),
         ("640 480\n640 480\n", "the same two labels"),
-        ("0 1 2\n0 2 3\n0 3 4\n0 4 5\n", "triangles, perhaps"),
+        ("1 2 3\n1 3 4\n1 4 5\n1 5 6\n", "triangles, perhaps"),
         ("0 2 0\n2 1 2\n0 2 4\n", "symmetric matrix"),
         ("8 11\n0 1\n0 2\n1 2\n", "may be a head or counts"),
         (
@@ -127,6 +127,7 @@ fn what_is_no_bare_list_is_refused() {
         ),
         ("0,1\n1,2\n1,3\n2,3\n", "as pandas writes them"),
         ("0 1\n1 2\n1 3\n2 3\n", "as pandas writes them"),
+        ("0,1,2\n0,1,5\n0,2,6\n1,2,9\n", "as pandas writes them"),
         ("a.jpg cat\nb.jpg dog\nc.jpg cat\n", "hardly any label"),
         ("a.jpg a_mask.png\nb.jpg b_mask.png\n", "copies or masks"),
         (
