@@ -103,7 +103,7 @@ fn every_input_has_a_record_by_its_own_name() {
     for (name, text) in [
         ("a", "1 2\n2 3\n3 1\n"),
         ("b", "1 2\n2 3\n"),
-        ("c", "1 1\n"),
+        ("c", "1 1\n1 2\n2 3\n1 3\n"),
     ] {
         std::fs::create_dir(path(name)).unwrap();
         std::fs::write(path(&format!("{name}/pairs.txt")), text).unwrap();

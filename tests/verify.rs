@@ -460,7 +460,7 @@ fn one_bad_file_does_not_stop_the_others() {
     let good = folder.path().join("good.txt");
     let bad = folder.path().join("bad.txt");
     std::fs::write(&good, "1 2\n").unwrap();
-    std::fs::write(&bad, "1 2\n3 3\n").unwrap();
+    std::fs::write(&bad, "1 2\n3 3\n1 3\n2 3\n").unwrap();
     let (good, bad) = (good.to_str().unwrap(), bad.to_str().unwrap());
     let run = verify(&[bad, good, "no such file", "--json"]);
     assert_eq!(run.code, 2);

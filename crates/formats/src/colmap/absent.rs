@@ -17,12 +17,7 @@ impl Database {
     ///
     /// # Errors
     /// Always.
-    pub(crate) fn open(
-        name: &str,
-        _: &Path,
-        _: &ReadOptions,
-        _: Vec<String>,
-    ) -> Result<Self, ReadError> {
+    pub(crate) fn open(name: &str, _: &Path, _: &ReadOptions) -> Result<Self, ReadError> {
         let error = DatabaseError::NotBuilt.into();
         Err(Place::Input.fault(error).in_file(name))
     }
