@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Takes the measurements of benches/README.md and prints its tables.
+"""Takes the measurements of benches/README.md and lab/docs/benches.md, and prints their tables.
 
     python3 benches/measure.py table3   [--data DIR]
     python3 benches/measure.py float    [--data DIR] [--seconds 600] [--least PAIRS]

@@ -22,11 +22,11 @@ BESIDE = {
     "README.md": "index.md", "proofs/README.md": "proofs.md", "python/README.md": "python.md", "certificates/README.md": "certificates.md",
     "benches/README.md": "benches.md", "CHANGELOG.md": "changelog.md", "crates/check/second/README.md": "second.md", "site/README.md": "site.md",
     "lab/README.md": "lab.md", "lab/docs/catalog.md": "lab-catalog.md", "lab/docs/studies.md": "studies.md", "lab/docs/paper.md": "paper.md",
-    "lab/docs/intrinsics.md": "lab-intrinsics.md", "lab/docs/formulas.md": "lab-formulas.md",
+    "lab/docs/intrinsics.md": "lab-intrinsics.md", "lab/docs/formulas.md": "lab-formulas.md", "lab/docs/benches.md": "lab-benches.md",
 }
 ORDER = {
     "Begin": ["tutorials", "symptoms", "glossary", "input", "databases", "models", "reconstruction", "python", "api", "pyrigi", "rust"],
-    "Atlas": ["catalog", "The published folder <certificates>", "audit", "lab", "lab-catalog", "studies", "lab-intrinsics", "paper", "lab-formulas"],
+    "Atlas": ["catalog", "The published folder <certificates>", "audit", "lab", "lab-catalog", "studies", "lab-intrinsics", "paper", "lab-formulas", "lab-benches"],
     "Theory and proof": ["theory", "statements", "formulas", "certificate", "proof", "proofs", "second"],
     "The project": ["benches", "site", "house", "changelog"],
 }
