@@ -6,23 +6,21 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// The pages: README and changelog, and all of docs/.
-fn pages() -> Vec<PathBuf> {
-    let names = [
-        "README.md",
-        "CHANGELOG.md",
-        "CONTRIBUTING.md",
-        "SECURITY.md",
-    ];
-    let mut pages = names.map(|name| root().join(name)).to_vec();
-    for entry in std::fs::read_dir(root().join("docs")).unwrap() {
-        let path = entry.unwrap().path();
-        if path.extension().is_some_and(|extension| extension == "md") {
-            pages.push(path);
+/// All pages of the repository, below a folder.
+fn pages(folder: &Path) -> Vec<PathBuf> {
+    let skipped = ["target", "node_modules", "_build", "__pycache__"];
+    let entries = std::fs::read_dir(folder).unwrap();
+    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
+    paths.sort();
+    let below = paths.into_iter().flat_map(|path| {
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        match path.is_dir() {
+            true if name.starts_with('.') || skipped.contains(&&*name) => Vec::new(),
+            true => pages(&path),
+            false => Vec::from_iter(name.ends_with(".md").then_some(path)),
         }
-    }
-    pages.sort();
-    pages
+    });
+    below.collect()
 }
 
 /// The text without blocks of code and code spans, in which brackets are no links. Code spans
@@ -75,7 +73,7 @@ fn has_anchor(page: &str, wanted: &str) -> bool {
 fn links_lead_somewhere() {
     let mut problems = Vec::new();
     let mut count = 0;
-    for path in pages() {
+    for path in pages(root()) {
         let text = std::fs::read_to_string(&path).unwrap();
         for target in targets(&prose(&text)) {
             if target.starts_with("https://") {

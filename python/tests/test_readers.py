@@ -97,21 +97,52 @@ def test_tracks_of_databases_and_reconstructions(
     assert len(few.nodes) == 8 + sum(length >= 7 for length in tracks)
 
 
+def test_what_is_open_in_pycolmap_is_taken_where_a_path_is(synthetic: pathlib.Path, tmp_path: pathlib.Path) -> None:
+    path, model = synthetic / "database.db", synthetic / "model"
+    named = tmp_path / "list.txt"
+    named.write_text("\n".join(viewcert.from_database(path).nodes))
+    reconstruction = pycolmap.Reconstruction(model)
+    with pycolmap.Database.open(path) as database:
+        asked = [
+            lambda given: viewcert.read(given),
+            lambda given: viewcert.from_database(given),
+            lambda given: viewcert.tracks_from_database(given),
+            lambda given: viewcert.lists(given, [named]).determined,
+            lambda given: viewcert.merge(model, model, given).determined,
+        ]
+        for ask in asked:
+            assert ask(database) == ask(path)
+        found, expected = viewcert.overview(database), viewcert.overview(path)
+    # It is closed now, and the copy is gone.
+    assert found.path == "database" and found.determined == expected.determined
+    for wanted in ("report", "page"):
+        text = getattr(found, wanted)()
+        assert "database" in text and "viewcert-" not in text and "/tmp" not in text
+    assert "<iframe" in found._repr_html_() and str(found).startswith("database\n")
+    by_model = viewcert.overview(reconstruction)
+    assert by_model.found["images"] == viewcert.overview(model).found["images"] == 8
+    assert viewcert.tracks_from_reconstruction(reconstruction) == viewcert.tracks_from_reconstruction(model)
+    graph = viewcert.from_database(path)
+    here = viewcert.at_cameras(graph, reconstruction)
+    assert here.certificate() == viewcert.at_cameras(graph, model).certificate()
+
+
 def test_tracks_have_a_model_of_their_own(synthetic: pathlib.Path) -> None:
     graph = viewcert.tracks_from_database(synthetic / "database.db")
     with pytest.raises(viewcert.InputError, match="only the calibrated model"):
         viewcert.verify(graph, model="projective")
 
 
-def test_cameras_without_points_are_components(tmp_path: pathlib.Path) -> None:
+def test_cameras_without_points_are_in_no_component(tmp_path: pathlib.Path, program: Program) -> None:
     # Three cameras, one point that the first two see; the third sees none.
     path = tmp_path / "problem.txt"
     path.write_text("3 1 2\n0 0 1.0 2.0\n1 0 1.0 2.0\n")
     graph = viewcert.read(path, tracks=True, min_views=2)
     verdict = viewcert.verify(graph)
-    assert sorted(map(sorted, verdict.components)) == [["0"], ["1"], ["2"]]
-    assert verdict.components[-1] == {"2"}
-    assert verdict.pairs_of(len(verdict.components) - 1) == []
+    assert sorted(map(sorted, verdict.components)) == [["0"], ["1"]]
+    assert len(verdict) == 2 and "2 components" in repr(verdict) and "components  2 (" in verdict.report()
+    [line] = program.json(path, "--tracks", "--min-views", 2)
+    assert len(line["components"]) == viewcert.check(verdict).components == 2
 
 
 def test_opening_a_database_changes_nothing(data: pathlib.Path) -> None:

@@ -62,7 +62,7 @@ class Overview:
     Attributes
     ----------
     path : str
-        The input.
+        The input; of one that is open in pycolmap ``'database'`` or ``'reconstruction'``.
     found : dict
         What ``verify overview --json`` prints: ``pairs`` and ``tracks`` with their verdicts, ``mappers`` with what
         COLMAP's mappers will make of it, ``next`` with commands.
@@ -73,6 +73,7 @@ class Overview:
     path: str
     found: Dict[str, Any] = field(repr=False)
     _reading: Dict[str, Any] = field(repr=False)
+    _said: Dict[str, str] = field(repr=False, compare=False)
 
     @property
     def determined(self) -> bool:
@@ -94,15 +95,20 @@ class Overview:
 
     def report(self) -> str:
         """What ``verify overview`` prints."""
-        return in_python(_native.overview(self.path, self._reading, "text").decode())
+        return in_python(self._as("text"))
 
     def page(self) -> str:
         """The web page of ``verify overview --html``, which needs no network."""
-        return _native.overview(self.path, self._reading, "html").decode()
+        return self._as("html")
+
+    def _as(self, kind: str) -> str:
+        if kind not in self._said:
+            self._said[kind] = _native.overview(self.path, self._reading, kind).decode()
+        return self._said[kind]
 
 
 def overview(
-    path: Path,
+    path: Union[Path, pycolmap.Database, pycolmap.Reconstruction],
     *,
     format: Optional[Format] = None,
     variable: Optional[str] = None,
@@ -119,8 +125,9 @@ def overview(
 
     Parameters
     ----------
-    path : str or path
-        A database of COLMAP, which is opened for reading only, a model, or any other file that :func:`read` reads.
+    path : str, path, pycolmap.Database or pycolmap.Reconstruction
+        A database of COLMAP, which is opened for reading only, a model, or any other file that :func:`read` reads. Of
+        what is open in pycolmap a copy is read.
     format, variable, pipeline, min_inliers, min_views, max_spread, rigs, columns, min_weight, skip_loops
         As of :func:`read`.
 
@@ -149,8 +156,11 @@ def overview(
         min_weight=min_weight,
         skip_loops=skip_loops,
     )
-    path = os.fspath(path)
-    return Overview(path, json.loads(_native.overview(path, reading, "json")), reading)
+    with on_disk(path) as (place, name):
+        # A copy is gone afterwards, so that everything is said of it now.
+        kinds = ("json",) if name is None else ("json", "text", "html")
+        said = {kind: _native.overview(place, reading, kind).decode().replace(place, name or place) for kind in kinds}
+    return Overview(name or place, json.loads(said["json"]), reading, said)
 
 
 @dataclass(frozen=True)

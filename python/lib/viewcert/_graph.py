@@ -517,6 +517,12 @@ def _read_one(path: Any, **options: Any) -> Graph[str]:
     return found
 
 
+def _filters(min_inliers: int, pipeline: Pipeline) -> dict[str, Any]:
+    """Those that are not the defaults, which a file that is no database need not refuse."""
+    given = {"min_inliers": (min_inliers, 15), "pipeline": (pipeline, "incremental")}
+    return {name: value for name, (value, default) in given.items() if value != default}
+
+
 def from_database(
     path: Union[Path, pycolmap.Database], *, min_inliers: int = 15, pipeline: Pipeline = "incremental"
 ) -> Graph[str]:
@@ -542,7 +548,7 @@ def from_database(
     InputError
         No such file, no database of COLMAP, or a locked one.
     """
-    graph = _read_one(path, min_inliers=min_inliers, pipeline=pipeline)
+    graph = _read_one(path, **_filters(min_inliers, pipeline))
     if not graph._native.is_database:
         raise InputError(f"{graph.name}: this is no database; viewcert.read reads files")
     return graph
@@ -582,9 +588,8 @@ def tracks_from_database(
     InputError
         As of :func:`from_database`, and a database without lists of matches.
     """
-    options: dict[str, Any] = {"min_inliers": min_inliers, "pipeline": pipeline}
-    options["max_spread"], options["rigs"] = max_spread, rigs
-    return _read_one(path, tracks=True, min_views=min_views, **options)
+    filters = _filters(min_inliers, pipeline)
+    return _read_one(path, tracks=True, min_views=min_views, max_spread=max_spread, rigs=rigs, **filters)
 
 
 def tracks_from_reconstruction(

@@ -253,7 +253,7 @@ class Verdict(Generic[N]):
     def _answer(self) -> Dict[str, Any]:
         """All that the report says but what is not about the graph and its cameras."""
         found = self.to_dict()
-        for member in ("seconds", "graph", "name", "file", "notes", "read"):
+        for member in ("seconds", "seed", "graph", "name", "file", "notes", "read"):
             found.pop(member, None)
         native = self._native
         members, ends = native.components()
