@@ -144,3 +144,15 @@ fn a_full_disk_is_an_error() {
     let errors = String::from_utf8(run.stderr).unwrap();
     assert!(errors.contains("No space left"), "{errors}");
 }
+
+#[test]
+fn a_limit_says_what_was_enumerated() {
+    let run = verify(&["catalog", "--nodes", "12", "--time-limit", "1ms"]);
+    assert_eq!(run.code, 3);
+    assert!(
+        run.err
+            .contains("the time limit was reached at the enumeration of graphs with "),
+        "{}",
+        run.err
+    );
+}

@@ -149,3 +149,29 @@ fn what_cannot_be_converted() {
     let written = verify_with(path.as_bytes(), &["convert", "-"]).out;
     assert_eq!(written, format!("# viewcert pairs\n{path}"));
 }
+
+/// Nodes without pairs are written and read.
+#[test]
+fn nodes_without_pairs_come_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("x");
+    let path = path.to_str().unwrap();
+    for line in ["D??", "D?_", "C?", "E???", "DFw"] {
+        let converted = verify_with(
+            format!("{line}\n").as_bytes(),
+            &["convert", "-", "-o", path],
+        );
+        assert_eq!(converted.code, 0, "{}", converted.err);
+        let hash = |run: &Run| run.json()[0]["graph"]["sha256"].clone();
+        let read = verify(&[path, "--json"]);
+        assert_eq!(
+            hash(&read),
+            hash(&verify_with(line.as_bytes(), &["-", "--json"])),
+            "{line}"
+        );
+        assert_eq!(
+            verify(&["convert", "--to", "graph6", path]).out,
+            format!("{line}\n")
+        );
+    }
+}

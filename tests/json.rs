@@ -1,7 +1,7 @@
 //! What every command prints with `--json` keeps to docs/report.schema.json, each to its own
 //! definition there.
 
-use crate::common::schema::keeps_to;
+use crate::common::schema::{keeps_to, schema};
 use crate::common::{verify, verify_with};
 use serde_json::Value;
 
@@ -84,6 +84,95 @@ fn of_audits() {
     for more in [&["--float", float][..], &[]] {
         let run = verify_with(SQUARE, &[&words[..], more].concat());
         keeps_to("float_ruling", &run, &["program", "verdict", "sigma"]);
+    }
+}
+
+/// Seed and prime are those that the answer rests on.
+#[test]
+fn records_hold_what_reproduces_them() {
+    let of = |graph: &[u8], options: &[&str]| {
+        let run = verify_with(graph, &[&["-", "--json", "--seed", "7"], options].concat());
+        keeps_to("report", &run, &["seed"]).remove(0)
+    };
+    // A triangle is one body; of the square a kernel modulo the prime tells the components apart.
+    let by_bodies = of(b"C~\n", &["--prime=1000003"]);
+    assert_eq!(
+        (&by_bodies["seed"], by_bodies.get("prime")),
+        (&7.into(), None)
+    );
+    let unused = "--prime is not used: contraction and counting decide, without residues".into();
+    assert!(by_bodies["notes"].as_array().unwrap().contains(&unused));
+    let line = |options: &[&str]| of(SQUARE, options);
+    for more in [&[][..], &["--method", "matrix"]] {
+        let found = line(&[&["--prime=1000003"], more].concat());
+        assert_eq!(found["prime"], 1_000_003);
+        assert!(!found["notes"].as_array().unwrap().contains(&unused));
+    }
+    let default = line(&["--method", "matrix"]);
+    assert_eq!(default["prime"], (1_u64 << 61) - 1);
+}
+
+/// Three inputs, three records, of which that of a failure says why.
+#[test]
+fn a_graph_that_fails_has_a_record() {
+    let folder = tempfile::tempdir().unwrap();
+    let missing = folder.path().join("missing.txt");
+    let missing = missing.to_str().unwrap();
+    for command in ["", "models", "overview", "advise", "label"] {
+        let words: Vec<&str> = [command]
+            .into_iter()
+            .filter(|word| !word.is_empty())
+            .collect();
+        let graphs = ["--json", "examples/house.txt", missing, "examples/psi.txt"];
+        let run = verify(&[&words[..], &graphs].concat());
+        assert_eq!(run.code, 2, "{command}");
+        let lines = run.json();
+        let kinds: Vec<&Value> = lines.iter().map(|line| &line["kind"]).collect();
+        assert_eq!(
+            (kinds.len(), kinds[1], &lines[1]["graph"]["name"]),
+            (3, &"failed".into(), &missing.into())
+        );
+        assert!(
+            lines[1]["error"]
+                .as_str()
+                .unwrap()
+                .starts_with("cannot be read: ")
+        );
+        assert!(schema().is_valid(&lines[1]), "{}", lines[1]);
+        let text = verify(&[&words[..], &graphs[1..]].concat()).out;
+        assert!(
+            text.contains(&format!("{missing}\n  error       cannot be read")),
+            "{text}"
+        );
+    }
+}
+
+/// One verdict is spelled in one way: in words, in tables and in JSON.
+#[test]
+fn a_verdict_has_one_spelling() {
+    for graph in [&b"C~\n"[..], b"HBQkcP_\n", b"Cl\n"] {
+        for model in ["projective", "calibrated", "affine"] {
+            let of = |more: &[&str]| verify_with(graph, &[&["-", "--model", model], more].concat());
+            let line = of(&["--json"]).json().remove(0);
+            let value = line["verdict"].as_str().unwrap();
+            assert!(
+                of(&[]).out.contains(&format!("  verdict     {value}: ")),
+                "{model}"
+            );
+            assert!(
+                of(&["--table=csv"]).out.contains(&format!(",{value},")),
+                "{model}"
+            );
+            assert!(
+                of(&["--table"]).out.contains(&format!("  {value} ")),
+                "{model}"
+            );
+            let models = verify_with(graph, &["models", "-"]).out;
+            assert!(
+                models.contains(&format!("  {model:<11} {value}, rank")),
+                "{models}"
+            );
+        }
     }
 }
 

@@ -269,3 +269,29 @@ fn union_square_in_all_models() {
         .collect();
     assert_eq!(counts, [9, 4, 1]);
 }
+
+/// The components of each model are those of its own report, with how many solutions each has by itself: the graph
+/// of the atlas with two, and a pair apart from it.
+#[test]
+fn components_of_models_are_those_of_reports() {
+    let pairs = verify_with(b"HBQkcP_\n", &["convert", "-"]).out + "100 101\n";
+    let line = verify_with(pairs.as_bytes(), &["models", "-", "--json", "--seed", "3"])
+        .json()
+        .remove(0);
+    assert_eq!(line["seed"], 3);
+    for of_model in line["models"].as_array().unwrap() {
+        let model = of_model["model"].as_str().unwrap();
+        let run = verify_with(
+            pairs.as_bytes(),
+            &["-", "--json", "--seed", "3", "--model", model],
+        );
+        let report = run.json().remove(0);
+        for member in ["components", "verdict", "rank", "prime"] {
+            assert_eq!(of_model[member], report[member], "{model}");
+        }
+    }
+    assert_eq!(
+        line["models"][1]["components"][0]["solutions"]["exactly"],
+        2
+    );
+}

@@ -708,11 +708,14 @@ fn draw_components(picture: &Picture) -> Drawn {
     if !discs.hinges.is_empty() {
         words += " A dot: a node in several.";
     }
+    drawn.note(&words);
     let hidden = picture.sizes.len() - discs.count - joining;
     if hidden > 0 {
-        words += &format!(" not drawn: {}.", counted(hidden, "smaller component"));
+        drawn.note(&format!(
+            "not drawn: {}",
+            counted(hidden, "smaller component")
+        ));
     }
-    drawn.note(&words);
     drawn
 }
 

@@ -87,6 +87,8 @@ fn large_graphs_are_drawn_by_components() {
             drawn.contains("not drawn: 402 smaller components"),
             "{drawn}"
         );
+        assert!(drawn.contains("1503 cameras are too many to draw: a symbol is a component"));
+        assert!(drawn.contains("A line: pairs that join two of them."));
         assert!(drawn.contains(">489 more components<"));
         assert!(drawn.contains(">500 single pairs<"));
     });
