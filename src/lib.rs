@@ -1,3 +1,5 @@
+//! Internal to viewcert, and may change at any time.
+//!
 //! `verify`: arguments in, reports out; no mathematics. One file a command.
 //!
 //! [`main`] is the program. What a command finds out from several files is there for others too:

@@ -270,3 +270,17 @@ fn the_tests_of_the_page_exist() {
     }
     assert!(count > 10, "{count}");
 }
+
+/// Whoever opens a crate sees in its first line whether it is an interface.
+#[test]
+fn internal_crates_say_so() {
+    let interface = ["core", "check", "formats", "unify"];
+    for entry in fs::read_dir(root().join("crates")).unwrap() {
+        let path = entry.unwrap().path();
+        let text = fs::read_to_string(path.join("src/lib.rs")).unwrap();
+        let is_internal =
+            text.starts_with("//! Internal to viewcert, and may change at any time.\n");
+        let name = path.file_name().unwrap().to_str().unwrap();
+        assert_eq!(is_internal, !interface.contains(&name), "{name}");
+    }
+}

@@ -1,3 +1,5 @@
+//! Internal to viewcert, and may change at any time.
+//!
 //! What a verdict means for a reconstruction, and what to do about it (docs/reconstruction.md).
 //!
 //! In: a graph and its verdict. Out: joints between components, pairs and images that everything

@@ -1,3 +1,5 @@
+//! Internal to viewcert, and may change at any time.
+//!
 //! The verdict in floating point, as the paper computes it, to be held against the exact
 //! one.
 //!

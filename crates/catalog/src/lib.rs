@@ -1,3 +1,5 @@
+//! Internal to viewcert, and may change at any time.
+//!
 //! The catalog of small viewing graphs.
 //!
 //! [`candidates`](mod@candidates) makes the biconnected graphs with some numbers of nodes and pairs, one of each

@@ -1,3 +1,5 @@
+//! Internal to viewcert, and may change at any time.
+//!
 //! Reports: text for people, JSON for programs, tables and pictures.
 
 pub mod advice;

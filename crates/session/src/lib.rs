@@ -1,3 +1,5 @@
+//! Internal to viewcert, and may change at any time.
+//!
 //! One run of a program: what may end it early, what shows that it goes on, where its outputs go, and
 //! with which code it ends.
 //!
