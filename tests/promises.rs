@@ -421,6 +421,10 @@ fn poses_without_points() {
         ];
         let parts = folder.path().join("parts");
         asked.push(vec!["split", model, parts.to_str().unwrap()]);
+        // The file of points by its own path, which may have no byte.
+        let points = format!("{model}/points3D.{}", if k == 2 { "bin" } else { "txt" });
+        asked.push(vec![&points]);
+        asked.push(vec!["--tracks", &points]);
         for words in asked {
             let run = verify(&words);
             assert_eq!((run.code, &*run.out), (2, ""), "{}", run.err);
@@ -761,4 +765,69 @@ fn spherical_cameras() {
     fs::write(&binary, camera).unwrap();
     let run = verify(&[binary.to_str().unwrap()]);
     assert!(run.err.contains("COLMAP's cameras.bin"), "{}", run.err);
+}
+
+/// A list that is whole, and overlaps that fix the scale, are promised under the condition; of plain graphs
+/// there is none.
+#[test]
+fn whole_lists() {
+    let made = Made::new(&[(1, SIMPLE_RADIAL, true)], &[1; 6], 150);
+    made.all(&[1, 2, 3, 4, 5, 6], 150);
+    let list = made.folder.path().join("list.txt");
+    fs::write(&list, "a.jpg\nb.jpg\nc.jpg\nd.jpg\ne.jpg\n").unwrap();
+    let others = made.folder.path().join("others.txt");
+    fs::write(&others, "c.jpg\nd.jpg\ne.jpg\nf.jpg\n").unwrap();
+    let pairs = made.folder.path().join("pairs.txt");
+    let names = ["a", "b", "c", "d", "e", "f"];
+    let all = names.iter().flat_map(|a| names.map(|b| (*a, b)));
+    let all: Vec<String> = all
+        .filter(|(a, b)| a < b)
+        .map(|(a, b)| format!("{a}.jpg {b}.jpg\n"))
+        .collect();
+    fs::write(&pairs, all.concat()).unwrap();
+    let lists = [&list, &others].map(|path| path.to_str().unwrap());
+    for (graph, condition) in [(made.path(), Some(RIGHT)), (pairs, None)] {
+        let words = [&["lists", graph.to_str().unwrap()], &lists[..]].concat();
+        let run = verify(&words);
+        assert_eq!(run.code, 0, "{}{}", run.out, run.err);
+        let behind = condition.map_or_else(String::new, |words| format!(" {words}"));
+        for words in [
+            "5 images, whole",
+            "4 images, whole",
+            "fix all lists against each other",
+        ] {
+            assert!(
+                run.out.contains(&format!("{words}{behind}\n")),
+                "{}",
+                run.out
+            );
+        }
+        let said = verify(&[&words[..], &["--json"]].concat());
+        let line = valid(&schema(), &said).remove(0);
+        assert_eq!(
+            line.get("condition"),
+            condition.map(|words| json!(words)).as_ref()
+        );
+    }
+}
+
+/// One file of a model of COLMAP, with its comments and without, is named, with what to give in its place.
+#[test]
+fn one_file_of_a_model() {
+    let folder = tempfile::tempdir().unwrap();
+    for (file, line) in [
+        ("cameras.txt", "1 SIMPLE_RADIAL 2000 1000 900 1000 500 0"),
+        ("images.txt", "1 1 0 0 0 0.5 0 0 1 a.jpg\n7.5 8.5 1"),
+        ("points3D.txt", "1 0.5 1.5 2.5 9 9 9 0.1 1 0 2 0"),
+        ("rigs.txt", "1 1 CAMERA 1"),
+        ("frames.txt", "1 1 1 0 0 0 0.5 0 0 1 CAMERA 1 1"),
+    ] {
+        let path = folder.path().join(file);
+        fs::write(&path, format!("{line}\n")).unwrap();
+        let run = verify(&[path.to_str().unwrap()]);
+        assert_eq!((run.code, &*run.out), (2, ""), "{file}");
+        for words in [file, "give the folder that holds it, with --tracks"] {
+            assert!(run.err.contains(words), "{file}: {}", run.err);
+        }
+    }
 }

@@ -222,7 +222,7 @@ impl List<'_> {
         if single && shared == 0 {
             return Some("no label is in two lines: a table of things and their names, perhaps");
         }
-        (!alike && !(images && self.width < 9))
+        (!(alike || images && self.width < 9))
             .then_some("hardly any label is in both columns: a table, perhaps")
     }
 
