@@ -127,9 +127,9 @@ fn hub_refutation_by_hand() {
     assert_eq!(line["rank"], 83);
 }
 
-/// The graphs of docs/theory.md, Example 5.10: each is the union of two parts whose ranks are
+/// The graphs of lab/docs/refutations.md, Example 5.10: each is the union of two parts whose ranks are
 /// proved, over a part whose rank is proved as well, and submodularity leaves no more than the rank
-/// that is found. The program finds such parts by itself: the rank of the whole is a proof.
+/// that is found. Counting does not see it: the program says so, and bounds its error.
 #[test]
 fn three_graphs_refuted_by_parts_that_overlap() {
     let graphs = [
@@ -171,7 +171,7 @@ fn three_graphs_refuted_by_parts_that_overlap() {
         });
         // 11 * 14 - 15 = 139.
         assert_eq!(a + b - c, 138);
-        assert_eq!(rank(&all), (138, "proof".into()));
+        assert_eq!(rank(&all), (138, "error-bound".into()));
     }
 }
 

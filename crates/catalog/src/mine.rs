@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use viewcert::decide::Strength;
 use viewcert::decide::evidence::{Evidence, PieceVerdict};
-use viewcert::decide::{Counting, Options, Value, Verdict, VerdictError, decide};
+use viewcert::decide::{Options, Value, Verdict, VerdictError, decide};
 use viewcert::graph::{Graph, graph6};
 use viewcert::solutions::Number;
 
@@ -112,9 +112,8 @@ fn partition_bound(verdict: &Verdict) -> usize {
 
 /// Whether the bound of a piece has a block with a hub.
 fn uses_hub(piece: &PieceVerdict) -> bool {
-    let has_hub = |counting: &Counting| counting.blocks.iter().any(|block| block.hub().is_some());
     piece.evidence.iter().any(|evidence| match evidence {
-        Evidence::Upper(upper) => upper.countings().any(has_hub),
+        Evidence::Counting(counting) => counting.blocks.iter().any(|block| block.hub.is_some()),
         _ => false,
     })
 }

@@ -313,8 +313,6 @@ class Maker:
         if self.projective and self.variety and core.n <= 6 and self.rng.random() < 0.3:
             found.insert(self.rng.randrange(2), self.integer_minor(core))
         if self.projective and self.variety and self.rng.random() < 0.3:
-            found.append(self.overlap(group))
-        if self.projective and self.variety and self.rng.random() < 0.3:
             found.append(self.counting(group))
         if rank == required:
             return found, [group]
@@ -357,46 +355,11 @@ class Maker:
             self.rng.shuffle(found)
         return found, components
 
-    def added(self, group):
-        """Pairs of nodes of a piece, none of one member: some of these, perhaps none."""
-        inside = [set(self.nodes(member)) for member in group]
-        pairs = itertools.combinations(sorted(self.union(group)), 2)
-        apart = [pair for pair in pairs if not any(nodes.issuperset(pair) for nodes in inside)]
-        return sorted(self.rng.sample(apart, min(len(apart), self.rng.randrange(3))))
-
     def counting(self, group):
-        """Evidence by single members and pairs that are added, whatever bound they give."""
-        added = self.added(group)
-        members = group + added
-        blocks = [{**listed([member]), "hubs": []} for member in members]
-        total = sum(self.required(len(self.union([member]))) for member in members)
-        return {"kind": "counting", "blocks": blocks, "bound": total, **listed_pairs(added)}
-
-    def overlap(self, group):
-        """Evidence by two random sets of members that overlap, whatever bound they give."""
-        sides, total, added = {"first": [], "second": []}, 0, self.added(group)
-        group = group + added
-        where = [self.rng.choice(["first", "second", "both"]) for _ in group]
-        where[self.rng.randrange(len(group))] = "both"
-        for name in sides:
-            side = [member for member, place in zip(group, where) if place in (name, "both")]
-            one = self.rng.random() < 0.3
-            for block in [side] if one else [[member] for member in side]:
-                sides[name].append({**listed(block), "hubs": []})
-                total += self.required(len(self.union(block)))
-        singles, pieces = [], []
-        for block in self.blocks_of([member for member, place in zip(group, where) if place == "both"]):
-            nodes = len(self.union(block))
-            if len(block) == 1:
-                singles += block
-                total -= self.required(nodes)
-            else:
-                core = cores.Core(self, block, "shared")
-                lower, rank = self.lower(core)
-                pieces.append({**listed(block), "evidence": [lower]})
-                total -= self.required(nodes) - (self.required(core.n) - rank)
-        shared = {"rigid": listed(singles), "pieces": pieces}
-        return {"kind": "overlap", **sides, "shared": shared, "bound": total, **listed_pairs(added)}
+        """Evidence by single members, whatever bound they give."""
+        blocks = [{**listed([member]), "hubs": []} for member in group]
+        total = sum(self.required(len(self.union([member]))) for member in group)
+        return {"kind": "counting", "blocks": blocks, "bound": total}
 
     def hub(self, group, wanted):
         """Counting with one block and a hub, its parts the members, if that gives the wanted bound."""
@@ -466,11 +429,6 @@ class Maker:
         if check_it:
             document["claim"] = check.Check(document).evidence_claim
         return document
-
-
-def listed_pairs(added):
-    """The member for pairs that are added, if there are any."""
-    return {"added": [list(pair) for pair in added]} if added else {}
 
 
 def empty_claim():

@@ -71,7 +71,8 @@ def parse(data):
 
 
 # Evidence that was moved to the laboratory, as the member or the kind that it was.
-LABORATORY = ("oriented",)
+LABORATORY = ("oriented", "overlap", "added", "points")
+OF_LABORATORY = "belongs to the laboratory: this checker does not verify it"
 
 
 def members(value, names, where):
@@ -81,7 +82,7 @@ def members(value, names, where):
     for name in names:
         need(name in value, f"{where}: the member {name} is missing")
     for name in value:
-        need(name in names or name not in LABORATORY, f"{where}: evidence {name} belongs to the laboratory: this checker does not verify it")
+        need(name in names or name not in LABORATORY, f"{where}: evidence {name} {OF_LABORATORY}")
         need(name in names, f"{where}: the member {name} is unknown")
     return [value[name] for name in names]
 

@@ -3,7 +3,7 @@
 from cores import Core
 from draws import draw_centres, draws_of
 from matrices import CoreKey, drawn_ranks, edge_motion, edge_translation
-from notation import a_big, a_list, a_string, an_int, distinct, members, need
+from notation import LABORATORY, OF_LABORATORY, a_big, a_list, a_string, an_int, distinct, members, need
 from pebbles import counted_rank
 from upper import UpperBounds
 
@@ -37,18 +37,18 @@ class Pieces(UpperBounds):
     def check_evidence(self, group, proofs, piece, where):
         """Section 7: all evidence of a piece."""
         core = Core(self, group, where)
-        kinds = {"lower": [], "counting": [], "overlap": [], "draws": [], "classes": [], "kernel": []}
+        kinds = {"lower": [], **{kind: [] for kind in self.UPPER}, "draws": [], "classes": [], "kernel": []}
         for k, value in enumerate(proofs):
             need(type(value) is dict and "kind" in value, f"{where}evidence {k} has no kind")
             kind = a_string(value["kind"], f"{where}evidence {k}: kind")
+            need(kind in kinds or kind not in LABORATORY, f"{where}evidence {k}: evidence {kind} {OF_LABORATORY}")
             need(kind in kinds and kind != "lower" or kind in self.LOWER, f"{where}evidence {k}: no such kind")
             kinds["lower" if kind in self.LOWER else kind].append((value, f"{where}evidence {k}, {kind}"))
         need(kinds["lower"], f"{where}no lower bound")
         need(len(kinds["draws"]) <= 1, f"{where}more than one draws")
         need(len(kinds["classes"]) <= 1, f"{where}more than one classes")
         need(kinds["classes"] or not kinds["kernel"], f"{where}a kernel without classes")
-        bounds = [self.check_counting(value, group, at) for value, at in kinds["counting"]]
-        bounds += [self.check_overlap(value, group, at) for value, at in kinds["overlap"]]
+        bounds = [check(self, value, group, at) for kind, check in self.UPPER.items() for value, at in kinds[kind]]
         piece.upper = min(bounds + [piece.required])
         classes = [self.check_classes(value, group, at) for value, at in kinds["classes"]]
         lower = [(self.check_lower(value, core, at), value) for value, at in kinds["lower"]]

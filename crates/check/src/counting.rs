@@ -3,7 +3,6 @@
 
 use crate::document::{Block, Counting, Hub, Model};
 use crate::forest::{root, unite};
-use crate::points::check_points;
 use crate::rejection::{Checked, Within, ensure};
 use crate::structure::{Part, Structure};
 
@@ -33,7 +32,7 @@ pub(crate) fn check_counting(
 }
 
 /// Verifies a block of these members; returns what it contributes.
-pub(crate) fn check_block(block: &Block, part: &Part, structure: &Structure) -> Checked<i64> {
+fn check_block(block: &Block, part: &Part, structure: &Structure) -> Checked<i64> {
     let model = structure.setting.model;
     let mut bound = structure.block_rank(part);
     ensure!(block.hubs.len() <= 1, "more than one hub");
@@ -43,10 +42,6 @@ pub(crate) fn check_block(block: &Block, part: &Part, structure: &Structure) -> 
     );
     for hub in &block.hubs {
         bound -= check_hub(hub, structure, part).within(|| "hubs[0]".into())?;
-    }
-    if let Some(points) = &block.points.0 {
-        ensure!(block.hubs.is_empty(), "a hub and points");
-        bound -= check_points(points, structure, part).within(|| "points".into())?;
     }
     Ok(bound)
 }

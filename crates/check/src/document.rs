@@ -4,7 +4,9 @@ pub(crate) mod base_lines;
 mod number;
 pub(crate) mod solutions;
 
-use crate::json::{Big, Optional, Strict, Value, any_members, objects, present};
+use crate::json::{
+    Big, Optional, Strict, Value, any_members, is_of_laboratory, objects, present, unknown,
+};
 use crate::rejection::{Checked, Failure};
 use base_lines::{BaseLines, BaseLinesClaim};
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
@@ -47,9 +49,7 @@ objects! {
     Merge { with: Vec<Source>, at: Vec<u32> }
     Members { bodies: Vec<u32>, edges: Vec<Pair> }
     Piece { bodies: Vec<u32>, edges: Vec<Pair>, evidence: Vec<Evidence> }
-    Block { bodies: Vec<u32>, edges: Vec<Pair>, hubs: Vec<Hub>, points: Optional<Points> }
-    Points { base: Vec<Vec<Pair>>, at: Vec<AtPoint>, cycles: usize, less: i64 }
-    AtPoint { node: u32, edges: Vec<Vec<Pair>> }
+    Block { bodies: Vec<u32>, edges: Vec<Pair>, hubs: Vec<Hub> }
     Hub {
         node: u32, parts: Vec<Members>, split: Vec<usize>, groups: Vec<Vec<usize>>,
         components: usize, less: i64,
@@ -201,7 +201,6 @@ pub(crate) enum Evidence {
     Pinching(Pinching),
     PlaneMinor(Minor),
     Counting(Counting),
-    Overlap(Overlap),
     Draws(Draws),
     Classes(Classes),
     Kernel(Kernel),
@@ -253,16 +252,6 @@ pub(crate) struct Pinching {
 pub(crate) struct Counting {
     pub blocks: Vec<Block>,
     pub bound: i64,
-    pub added: Option<Vec<Pair>>,
-}
-
-#[derive(Debug)]
-pub(crate) struct Overlap {
-    pub first: Vec<Block>,
-    pub second: Vec<Block>,
-    pub shared: Split,
-    pub bound: i64,
-    pub added: Option<Vec<Pair>>,
 }
 
 #[derive(Debug)]
@@ -294,7 +283,6 @@ impl Evidence {
             Evidence::Pinching(_) => "pinching",
             Evidence::PlaneMinor(_) => "plane-minor",
             Evidence::Counting(_) => "counting",
-            Evidence::Overlap(_) => "overlap",
             Evidence::Draws(_) => "draws",
             Evidence::Classes(_) => "classes",
             Evidence::Kernel(_) => "kernel",
@@ -310,7 +298,6 @@ any_members! {
         flows: usize, lambda_rows: Vec<usize>, lambda_cols: Vec<usize>,
         blocks: Vec<Block>, bound: i64, count: u64, rank: i64, classes: Vec<Class>,
         vector: Vec<Big<u64>>, start: Pair, steps: Vec<Vec<usize>>,
-        first: Vec<Block>, second: Vec<Block>, shared: Split, added: Vec<Pair>,
     }
 }
 
@@ -337,14 +324,6 @@ impl AnyMembers {
             "counting" => Evidence::Counting(Counting {
                 blocks: own!(self, blocks),
                 bound: own!(self, bound),
-                added: self.added.take(),
-            }),
-            "overlap" => Evidence::Overlap(Overlap {
-                first: own!(self, first),
-                second: own!(self, second),
-                shared: own!(self, shared),
-                bound: own!(self, bound),
-                added: self.added.take(),
             }),
             "draws" => Evidence::Draws(Draws {
                 seed: own!(self, seed).0,
@@ -360,6 +339,7 @@ impl AnyMembers {
                 draw: own!(self, draw),
                 vector: own!(self, vector),
             }),
+            other if is_of_laboratory(other) => return Err(unknown(other)),
             other => return Err(E::custom(format!("`{other}` is no kind of evidence"))),
         };
         self.nothing_left()?;

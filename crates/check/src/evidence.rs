@@ -1,7 +1,6 @@
 //! Pieces, their evidence, and what it amounts to (sections 6, 7 and 9 of the specification; items
 //! 2 to 7 of theory, section 9). What each kind of evidence has to show is in a file of its own.
 
-use crate::added;
 use crate::core::Core;
 use crate::counting::check_counting;
 use crate::division::{Sizes, divide};
@@ -9,7 +8,6 @@ use crate::document::{self, Evidence, Members, Model};
 use crate::draws::{Drawn, check_draws};
 use crate::kernel::{Place, check_kernel};
 use crate::lower::{check_lower, check_rigid};
-use crate::overlap::check_overlap;
 use crate::rejection::{Checked, Failure, Within, ensure};
 use crate::setting::Lower;
 use crate::structure::{Part, Structure};
@@ -109,7 +107,7 @@ impl Classes {
 struct Shown {
     /// Lower bounds on the rank of the core.
     bounds: Vec<Lower>,
-    /// The least upper bound by counting or overlap on the rank of the piece, or `required`.
+    /// The least upper bound by counting on the rank of the piece, or `required`.
     upper: i64,
     drawn: Option<Drawn>,
     classes: Option<Classes>,
@@ -169,18 +167,7 @@ impl Shown {
                 self.bounds.push(check_lower(one, structure.setting, core)?);
             }
             Evidence::Counting(counting) => {
-                let added = counting.added.as_deref();
-                let bound = added::check_with(added, structure, piece, |structure, piece| {
-                    check_counting(counting, structure, piece)
-                });
-                self.upper = self.upper.min(bound?);
-            }
-            Evidence::Overlap(overlap) => {
-                let added = overlap.added.as_deref();
-                let bound = added::check_with(added, structure, piece, |structure, piece| {
-                    check_overlap(overlap, structure, piece)
-                });
-                self.upper = self.upper.min(bound?);
+                self.upper = self.upper.min(check_counting(counting, structure, piece)?);
             }
             Evidence::Draws(draws) => {
                 ensure!(self.drawn.is_none(), "a second `draws` in the piece");

@@ -241,10 +241,15 @@ pub(crate) fn fill<'de, A: MapAccess<'de>, T: Value>(
 }
 
 /// Evidence that was moved to the laboratory, as the member or the `kind` that it was.
-const LABORATORY: [&str; 1] = ["oriented"];
+const LABORATORY: [&str; 4] = ["oriented", "overlap", "added", "points"];
 
+pub(crate) fn is_of_laboratory(name: &str) -> bool {
+    LABORATORY.contains(&name)
+}
+
+/// Why a member, or a kind, is not known.
 pub(crate) fn unknown<E: Error>(name: &str) -> E {
-    Error::custom(if LABORATORY.contains(&name) {
+    Error::custom(if is_of_laboratory(name) {
         format!("evidence `{name}` belongs to the laboratory: this checker does not verify it")
     } else {
         format!("the member `{name}` does not belong there")
@@ -324,7 +329,8 @@ macro_rules! any_members {
                         $(stringify!($member) => $crate::json::fill(
                             &mut object, stringify!($member), &mut members.$member,
                         )?,)*
-                        other => return Err($crate::json::unknown(other)),
+                        // What the kind has may be unknown as the kind is.
+                        other => return Err($crate::json::unknown(members.kind.as_deref().filter(|kind| $crate::json::is_of_laboratory(kind)).unwrap_or(other))),
                     }
                 }
                 Ok(members)

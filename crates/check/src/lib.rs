@@ -22,8 +22,6 @@
 //! | lower bounds: pivots | 7 | 1.4, 3.3, 8.1 | `lower`, `plane_flow`, `integer_minor` |
 //! | the same in the plane | 7 | 13.5, 13.12 | `pinching`, `plane_minor` |
 //! | upper bounds: blocks and hubs | 7 | 5.1, 5.2, 5.5, 13.22 | `counting` |
-//! | upper bounds: parts that overlap | 7 | 5.9, 5.11 | `overlap` |
-//! | upper bounds with more edges | 7 | 5.13 | `added` |
 //! | error bounds: draws nobody chooses | 9 | 7.2, 7.4 | `draws` |
 //! | classes, rigid or split again | 7 | 6.3, 6.5 | `evidence` |
 //! | motions tell classes apart | 7, 9 | 6.4, 6.7, 6.8, 13.13, 13.19 | `kernel` |
@@ -38,7 +36,6 @@
 //! 4), `matrices`, `elimination` and `algebra` compute, `limits` bounds what that may cost (section
 //! 11), `rejection` has the reasons.
 
-mod added;
 mod algebra;
 mod base_lines;
 mod bodies;
@@ -64,13 +61,11 @@ mod kinds;
 mod limits;
 mod lower;
 mod matrices;
-mod overlap;
 mod parts;
 mod pinching;
 mod pivots;
 mod plane_flow;
 mod plane_minor;
-mod points;
 pub mod program;
 mod rejection;
 mod setting;

@@ -10,11 +10,9 @@ use crate::graph::Graph;
 use crate::rejection::{Checked, Failure, ensure};
 use crate::setting::Setting;
 use crate::vectors::Vectors;
-use std::borrow::Cow;
 
 /// A set of members, in increasing order. The number of a final body is its position in the list of
 /// known parts and bodies; that of a loose edge is the length of this list plus the edge's number.
-/// Edges that are added come behind all edges of the graph.
 pub(crate) type Part = Vec<usize>;
 
 /// The final bodies in which each node lies: those of node i from end[i] to end[i + 1].
@@ -34,13 +32,11 @@ pub(crate) struct Structure<'a> {
     graph: &'a Graph,
     pub setting: &'a Setting<'a>,
     /// The nodes of final bodies, in increasing order; `None` for bodies that are consumed.
-    bodies: Cow<'a, [Option<Vec<u32>>]>,
+    bodies: Vec<Option<Vec<u32>>>,
     /// Whether each body holds a known displacement; so not one that is consumed.
-    scaled: Cow<'a, [bool]>,
+    scaled: Vec<bool>,
     /// Whether each body comes from the rules and what is known; so not one that is consumed.
-    unique: Cow<'a, [bool]>,
-    /// The edges that are added, in increasing order.
-    added: &'a [Pair],
+    unique: Vec<bool>,
     pub everything: Part,
 }
 
@@ -64,7 +60,6 @@ impl<'a> Structure<'a> {
                 .into_iter()
                 .map(|body| body.map(|body| sorted(body.nodes)))
                 .collect(),
-            added: &[],
             everything: Part::new(),
         };
         let bodies = (0..structure.bodies.len()).filter(|&k| structure.bodies[k].is_some());
@@ -97,24 +92,6 @@ impl<'a> Structure<'a> {
             loose.extend((covering == 0).then_some(self.bodies.len() + number));
         }
         Ok(loose)
-    }
-
-    /// The same members and some edges more, which no member of a piece holds; and the piece with
-    /// these.
-    pub fn with_edges<'b>(&'b self, piece: &Part, added: &'b [Pair]) -> (Structure<'b>, Part) {
-        let first = self.bodies.len() + self.graph.pairs.len();
-        let mut whole = piece.clone();
-        whole.extend(first..first + added.len());
-        let larger = Structure {
-            graph: self.graph,
-            setting: self.setting,
-            bodies: Cow::Borrowed(&self.bodies),
-            scaled: Cow::Borrowed(&self.scaled),
-            unique: Cow::Borrowed(&self.unique),
-            added,
-            everything: whole.clone(),
-        };
-        (larger, whole)
     }
 
     fn bodies_of_nodes(&self) -> BodiesOfNodes {
@@ -202,20 +179,14 @@ impl<'a> Structure<'a> {
         Ok(owner)
     }
 
-    /// The number of a member that is an edge: one that is added, or else one of the graph.
+    /// The number of a member that is an edge.
     fn edge(&self, pair: Pair) -> Checked<usize> {
-        let first = self.bodies.len();
-        match self.added.binary_search(&pair) {
-            Ok(added) => Ok(first + self.graph.pairs.len() + added),
-            Err(_) => Ok(first + self.graph.edge(pair)?),
-        }
+        Ok(self.bodies.len() + self.graph.edge(pair)?)
     }
 
     /// The nodes of a member that is an edge, given how many of these come before it.
     fn pair(&self, number: usize) -> &Pair {
-        let pairs = &self.graph.pairs;
-        let added = || &self.added[number - pairs.len()];
-        pairs.get(number).unwrap_or_else(added)
+        &self.graph.pairs[number]
     }
 
     fn name(&self, member: usize) -> String {

@@ -2,15 +2,12 @@
 
 mod changes;
 
-mod added;
 mod affine;
 mod base_lines;
 mod conditions;
 mod displacements;
 mod here;
 mod intrinsics;
-mod overlap;
 mod parts;
-mod points;
 mod solutions;
 mod tampering;

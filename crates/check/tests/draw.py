@@ -387,10 +387,6 @@ class Filler:
             core, draws = self.core(piece), {}
             for evidence in piece["evidence"]:
                 self.lower(core, evidence)
-                if evidence["kind"] == "overlap":
-                    for shared in evidence["shared"]["pieces"]:
-                        for inner in shared["evidence"]:
-                            self.lower(self.core(shared), inner)
                 if evidence["kind"] == "draws":
                     self.draws(core, evidence, draws)
                 if evidence["kind"] == "classes":

@@ -111,6 +111,21 @@ fn what_the_laboratory_has_is_refused_by_name() {
         let error = check(text.to_string().as_bytes(), None).unwrap_err();
         assert!(error.to_string().contains(wanted), "{place}: {error}");
     }
+    let evidence = json!({"kind": "overlap", "first": [], "second": [], "bound": 1});
+    let block = json!({"bodies": [], "edges": [], "hubs": [], "points": {}});
+    for (kind, evidence) in [
+        ("overlap", evidence),
+        (
+            "added",
+            json!({"kind": "counting", "blocks": [], "added": []}),
+        ),
+        ("points", json!({"kind": "counting", "blocks": [block]})),
+    ] {
+        let text = changed("two", &[("/pieces/0/evidence/0", evidence)]).to_string();
+        let error = check(text.as_bytes(), None).unwrap_err().to_string();
+        let wanted = wanted.replace("oriented", kind);
+        assert!(error.contains(&wanted), "{error}");
+    }
 }
 
 #[test]

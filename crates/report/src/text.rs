@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use viewcert::contract::Merge;
 use viewcert::decide::Strength;
 use viewcert::decide::evidence::{Evidence, Witness};
-use viewcert::decide::{Bound, Component, SolutionCount, Value, Verdict};
+use viewcert::decide::{Component, SolutionCount, Value, Verdict};
 use viewcert::wording::printable;
 use viewcert_formats::NamedGraph;
 
@@ -202,18 +202,7 @@ pub(super) fn reason(input: &NamedGraph, verdict: &Verdict) -> String {
             format!("{parts} parts hang together in {single}, or not at all")
         }
         Strength::Proof if !verdict.pieces.is_empty() && covered < verdict.required => {
-            let mut evidence = verdict.pieces.iter().flat_map(|piece| &piece.evidence);
-            let more = evidence.find_map(|one| match one {
-                Evidence::Upper(upper) if !upper.added.is_empty() => {
-                    Some("pairs that are implied allow")
-                }
-                Evidence::Upper(upper) if matches!(upper.by, Bound::Overlap(_)) => {
-                    Some("two parts that overlap allow")
-                }
-                _ => None,
-            });
-            let more = more.unwrap_or("counting allows");
-            format!("{more} rank {covered} at most")
+            format!("counting allows rank {covered} at most")
         }
         Strength::Proof => match input.cameras {
             None if !verdict.known_parts.is_empty() => {

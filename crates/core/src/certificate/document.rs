@@ -12,10 +12,7 @@ use crate::contract::{Body, Merge, Part, Seed};
 use crate::decide::evidence::{
     Class, ClassKind, Draws, Evidence, IntegerMinor, ModularDraw, PieceVerdict, Witness,
 };
-use crate::decide::{
-    Block, Bound, Claim, Counting, Hub, Overlap, Point, Points, Shared, SharedBaseLines,
-    SharedPiece, Value, Verdict,
-};
+use crate::decide::{Block, Claim, Counting, Hub, SharedBaseLines, Value, Verdict};
 use crate::geometry::plane_flow::PlaneFlowRank;
 use crate::graph::{Graph, graph6};
 use crate::linalg::integer::Integer;
@@ -279,25 +276,6 @@ impl<'a> PieceView<'a> {
     }
 }
 
-impl<'a> From<&'a SharedPiece> for PieceView<'a> {
-    fn from(piece: &'a SharedPiece) -> Self {
-        Self {
-            bodies: &piece.members.bodies,
-            edges: &piece.members.edges,
-            evidence: List(&piece.evidence),
-        }
-    }
-}
-
-impl<'a> From<&'a Shared> for SplitView<'a> {
-    fn from(shared: &'a Shared) -> Self {
-        Self {
-            rigid: (&shared.rigid).into(),
-            pieces: shared.pieces.iter().map(PieceView::from).collect(),
-        }
-    }
-}
-
 /// A slice whose elements have their own way of being written.
 struct List<'a, T>(&'a [T]);
 
@@ -341,14 +319,10 @@ impl Serialize for View<'_, Evidence> {
                 seed_and_draw(&mut map, draw)?;
                 rows_and_cols(&mut map, pivots)?;
             }
-            Evidence::Upper(upper) => {
-                match &upper.by {
-                    Bound::Counting(found) => counting(&mut map, found)?,
-                    Bound::Overlap(found) => overlap(&mut map, found)?,
-                }
-                if !upper.added.is_empty() {
-                    map.serialize_entry("added", &upper.added)?;
-                }
+            Evidence::Counting(Counting { blocks, bound }) => {
+                map.serialize_entry("kind", "counting")?;
+                map.serialize_entry("blocks", &List(blocks))?;
+                map.serialize_entry("bound", bound)?;
             }
             Evidence::Draws(Draws { seed, count, rank }) => {
                 map.serialize_entry("kind", "draws")?;
@@ -369,27 +343,6 @@ impl Serialize for View<'_, Evidence> {
         }
         map.end()
     }
-}
-
-fn counting<M: SerializeMap>(map: &mut M, found: &Counting) -> Result<(), M::Error> {
-    let Counting { blocks, bound } = found;
-    map.serialize_entry("kind", "counting")?;
-    map.serialize_entry("blocks", &List(blocks))?;
-    map.serialize_entry("bound", bound)
-}
-
-fn overlap<M: SerializeMap>(map: &mut M, found: &Overlap) -> Result<(), M::Error> {
-    let Overlap {
-        first,
-        second,
-        shared,
-        bound,
-    } = found;
-    map.serialize_entry("kind", "overlap")?;
-    map.serialize_entry("first", &List(&first.blocks))?;
-    map.serialize_entry("second", &List(&second.blocks))?;
-    map.serialize_entry("shared", &SplitView::from(shared))?;
-    map.serialize_entry("bound", bound)
 }
 
 /// The new node, the ends of the pinched edge, the further ends.
@@ -464,7 +417,7 @@ impl Serialize for View<'_, Class> {
 
 impl Serialize for View<'_, Block> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let hubs: Vec<&Hub> = self.0.hub().into_iter().collect();
+        let hubs: Vec<&Hub> = self.0.hub.iter().collect();
         let mut map = serializer.serialize_map(None)?;
         map.serialize_entry("bodies", &self.0.members.bodies)?;
         map.serialize_entry("edges", &self.0.members.edges)?;
@@ -472,29 +425,6 @@ impl Serialize for View<'_, Block> {
             "hubs",
             &hubs.iter().map(|hub| View(*hub)).collect::<Vec<_>>(),
         )?;
-        if let Some(points) = self.0.points() {
-            map.serialize_entry("points", &View(points))?;
-        }
-        map.end()
-    }
-}
-
-impl Serialize for View<'_, Points> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("base", &self.0.base.lists)?;
-        map.serialize_entry("at", &List(&self.0.at))?;
-        map.serialize_entry("cycles", &self.0.cycles)?;
-        map.serialize_entry("less", &self.0.less)?;
-        map.end()
-    }
-}
-
-impl Serialize for View<'_, Point> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("node", &self.0.node)?;
-        map.serialize_entry("edges", &self.0.edges.lists)?;
         map.end()
     }
 }

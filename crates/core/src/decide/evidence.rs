@@ -54,7 +54,7 @@ pub enum Evidence {
         pivots: Pivots,
     },
     /// An upper bound.
-    Upper(Upper),
+    Counting(Counting),
     /// The rank at draws that nobody can choose.
     Draws(Draws),
     /// The motion classes, which the components refine.
@@ -80,15 +80,6 @@ impl Evidence {
                 Witness::Prime(prime) => Some(prime),
                 Witness::Determinant(_) => None,
             },
-            Self::Upper(Upper { by, .. }) => match by {
-                Bound::Overlap(overlap) => {
-                    let pieces = overlap.shared.pieces.iter();
-                    pieces
-                        .filter_map(|piece| smallest_prime(&piece.evidence))
-                        .min()
-                }
-                Bound::Counting(_) => None,
-            },
             Self::Classes(classes) => {
                 let of_class = |class: &Class| match &class.kind {
                     ClassKind::Rigid(evidence) => smallest_prime(evidence),
@@ -96,7 +87,7 @@ impl Evidence {
                 };
                 classes.iter().filter_map(of_class).min()
             }
-            Self::Pinching { .. } | Self::Draws(_) => None,
+            Self::Pinching { .. } | Self::Counting(_) | Self::Draws(_) => None,
         }
     }
 }
@@ -104,59 +95,6 @@ impl Evidence {
 /// The smallest prime of residues in some evidence.
 pub(super) fn smallest_prime(evidence: &[Evidence]) -> Option<u64> {
     evidence.iter().filter_map(Evidence::prime).min()
-}
-
-/// An upper bound on the rank of a piece.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Upper {
-    /// The bound, for the piece with the added pairs as edges among its members.
-    pub by: Bound,
-    /// Pairs (i, j), i < j, of nodes of the piece, increasing; no member has both nodes of one. More
-    /// pairs make no rank smaller (Corollary 5.13).
-    pub added: Vec<(u32, u32)>,
-}
-
-/// How a rank is bounded from above.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Bound {
-    /// By counting.
-    Counting(Counting),
-    /// By two parts that overlap.
-    Overlap(Overlap),
-}
-
-impl Upper {
-    /// The bound.
-    pub fn value(&self) -> usize {
-        match &self.by {
-            Bound::Counting(counting) => counting.bound,
-            Bound::Overlap(overlap) => overlap.bound,
-        }
-    }
-
-    /// Whether a block is seen to lose rank from points.
-    pub fn has_points(&self) -> bool {
-        let mut blocks = self.countings().flat_map(|counting| &counting.blocks);
-        blocks.any(|block| block.points().is_some())
-    }
-
-    /// What is counted for it.
-    pub fn countings(&self) -> impl Iterator<Item = &Counting> {
-        let (first, second) = match &self.by {
-            Bound::Counting(counting) => (counting, None),
-            Bound::Overlap(overlap) => (&overlap.first, Some(&overlap.second)),
-        };
-        [first].into_iter().chain(second)
-    }
-}
-
-impl From<Bound> for Upper {
-    fn from(by: Bound) -> Self {
-        Self {
-            by,
-            added: Vec::new(),
-        }
-    }
 }
 
 /// A partition of a piece's members and the bound on its rank that counting gives.
@@ -173,77 +111,8 @@ pub struct Counting {
 pub struct Block {
     /// What is in the block.
     pub members: Members,
-    /// Why it loses rank.
-    pub loss: Option<Loss>,
-}
-
-impl Block {
-    /// The hub at which it loses rank.
-    pub fn hub(&self) -> Option<&Hub> {
-        match &self.loss {
-            Some(Loss::Hub(hub)) => Some(hub),
-            _ => None,
-        }
-    }
-
-    /// The points from which it is seen to lose rank.
-    pub fn points(&self) -> Option<&Points> {
-        match &self.loss {
-            Some(Loss::Points(points)) => Some(points),
-            _ => None,
-        }
-    }
-}
-
-/// Why a block has less rank than a rigid one.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Loss {
-    /// Parts that meet at a node (Theorem 5.2).
-    Hub(Hub),
-    /// Plane flows, seen from points (Theorem 5.16).
-    Points(Points),
-}
-
-impl Loss {
-    /// How much less, at least 1.
-    pub fn less(&self) -> usize {
-        match self {
-            Self::Hub(hub) => hub.less,
-            Self::Points(points) => points.less,
-        }
-    }
-}
-
-/// Sets of edges of the core of a block, each with a point, that take off `less` of its rank. With
-/// s_0 flows of `base`, s_l of those of the l-th of t points, m' edges and n' nodes of the core, it is
-/// (4 - t) s_0 + s_1 + .. + s_t - `cycles` - (7 m' - (11 n' - 15)).
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Points {
-    /// Edges whose flows count for all of space.
-    pub base: DividedSet,
-    /// Points, at most four.
-    pub at: Vec<Point>,
-    /// Independent cycles of the edges in which anything can circulate.
-    pub cycles: usize,
-    /// What the block loses, at least 1.
-    pub less: usize,
-}
-
-/// A node of the core of a block, by its number there, and the edges whose flows it sees.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Point {
-    /// The node.
-    pub node: u32,
-    /// The edges; those of `base` are among them.
-    pub edges: DividedSet,
-}
-
-/// Edges (i, j), i < j, of the core of a block, by numbers of its nodes, in lists that are increasing
-/// and have none in common. They have 2 |E| less the sum of 3 n_B - 4 over the lists flows at least.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct DividedSet {
-    /// The lists.
-    pub lists: Vec<Vec<(u32, u32)>>,
+    /// The hub at which it loses rank (Theorem 5.2).
+    pub hub: Option<Hub>,
 }
 
 /// A node at which a block loses rank. With every part of `split` given its own copy of
@@ -264,37 +133,6 @@ pub struct Hub {
     pub components: usize,
     /// What the block loses, at least 1.
     pub less: usize,
-}
-
-/// Two sets of members that cover a piece, and the bound on its rank that they give.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Overlap {
-    /// Blocks of the first set, and what they contribute.
-    pub first: Counting,
-    /// Blocks of the second set, and what they contribute.
-    pub second: Counting,
-    /// What is in both.
-    pub shared: Shared,
-    /// What the blocks contribute less the lower bound of what is in both.
-    pub bound: usize,
-}
-
-/// The members that are in both sets, cut into pieces whose ranks add up.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Shared {
-    /// Those that are pieces by themselves.
-    pub rigid: Members,
-    /// The other pieces.
-    pub pieces: Vec<SharedPiece>,
-}
-
-/// A piece of what is in both sets.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SharedPiece {
-    /// The piece.
-    pub members: Members,
-    /// Lower bounds for its core.
-    pub evidence: Vec<Evidence>,
 }
 
 /// A motion class of a piece: members that no motion of the piece tells apart.
@@ -355,7 +193,7 @@ pub struct PieceVerdict {
     pub evidence: Vec<Evidence>,
     /// Lower bound on the rank of the piece.
     pub lower: usize,
-    /// Upper bound by counting, or by parts that overlap.
+    /// Upper bound by counting.
     pub upper: usize,
     /// Strength of `lower` being the rank.
     pub rank_strength: Strength,

@@ -30,7 +30,6 @@
 
 pub mod evidence;
 
-mod added;
 mod base_lines;
 mod bodies_by_rank;
 mod claim;
@@ -42,7 +41,6 @@ pub(crate) mod motion_class;
 mod noticed;
 mod one_piece;
 mod options;
-mod overlap;
 mod plane_piece;
 mod question;
 mod solution_count;
@@ -59,10 +57,7 @@ pub use claim::{Claim, Strength, UnknownStrength};
 pub(crate) use counting::GAMMA;
 pub use draft::{Draft, Meaningless};
 pub use error::VerdictError;
-pub use evidence::{
-    Block, Bound, Counting, DividedSet, Hub, Loss, Overlap, Point, Points, Shared, SharedPiece,
-    Upper,
-};
+pub use evidence::{Block, Counting, Hub};
 pub use noticed::{Closure, Groups, closure, groups};
 pub use options::{Options, Prime};
 pub use plane_piece::{plane_rank, plane_rank_with_parts};

@@ -6,18 +6,15 @@
 //! one is (Theorem 6.3).
 
 use crate::contract::piece::{Assembly, Members};
-use crate::decide::added;
 use crate::decide::claim::Strength;
 use crate::decide::drawn::{Centres, Ranks};
 use crate::decide::error::VerdictError;
-use crate::decide::evidence::{Bound, Class, ClassKind, Draws, Evidence, PieceVerdict, Upper};
+use crate::decide::evidence::{Class, ClassKind, Counting, Draws, Evidence, PieceVerdict};
 use crate::decide::options::Options;
-use crate::decide::overlap;
 use crate::decide::question::{Arithmetic, Method, Question};
 use crate::decide::vectors;
 use crate::decide::walk::{ATTEMPTS, Alone, Piece};
 use crate::decide::whole_matrix;
-use crate::geometry::model::Model;
 use crate::watch::Step;
 use rayon::prelude::*;
 
@@ -123,10 +120,10 @@ impl Piece<'_> {
         let classes = self.decide_classes(&found, at.draw.draw)?;
         let components: Vec<Members> = classes.iter().flat_map(Class::components).collect();
         let lower = self.rank_of_piece(ranks.rank);
-        let bounds = self.bounds(&ranks, at, &components, lower)?;
+        let counting = self.bound(&ranks, at, &components, lower)?;
         let full = self.rank_of_piece(self.required());
-        let upper = bounds.last().map_or(full, Upper::value);
-        evidence.extend(bounds.into_iter().map(Evidence::Upper));
+        let upper = counting.as_ref().map_or(full, |found| found.bound);
+        evidence.extend(counting.map(Evidence::Counting));
         let settled = if lower == upper {
             Settled {
                 strength: Strength::Proof,
@@ -156,44 +153,26 @@ impl Piece<'_> {
         }))
     }
 
-    /// Upper bounds below full rank, each better than the one before, until one is the rank; none if
-    /// nobody wants to count.
-    fn bounds(
+    /// The upper bound by counting, if it is below full rank; none if nobody wants to count.
+    fn bound(
         &self,
         ranks: &Ranks,
         at: &Centres,
         components: &[Members],
         lower: usize,
-    ) -> Result<Vec<Upper>, VerdictError> {
-        let mut found: Vec<Upper> = Vec::new();
+    ) -> Result<Option<Counting>, VerdictError> {
         if !self.options.question.counting() {
-            return Ok(found);
+            return Ok(None);
         }
         let counting = match self.assembly.placed() {
             Some(placed) => {
                 let part = (self.members, self.core);
                 vectors::count(self.assembly, placed, part, &ranks.edge_scales())
             }
-            None => self.count(at, components, lower, false)?,
+            None => self.count(at, components, lower)?,
         };
         let full = self.rank_of_piece(self.required());
-        if counting.bound < full {
-            found.push(Bound::Counting(counting).into());
-        }
-        let is_open = |found: &[Upper]| found.last().is_none_or(|bound| bound.value() > lower);
-        if is_open(&found) {
-            let overlap = overlap::search(self, lower)?;
-            found.extend(overlap.map(|overlap| Bound::Overlap(overlap).into()));
-        }
-        if is_open(&found) {
-            found.extend(added::search(self, lower)?);
-        }
-        if is_open(&found) && self.model() == Model::Projective {
-            let counting = self.count(at, components, lower, true)?;
-            let before = found.last().map_or(full, Upper::value);
-            found.extend((counting.bound < before).then(|| Bound::Counting(counting).into()));
-        }
-        Ok(found)
+        Ok(Some(counting).filter(|counting| counting.bound < full))
     }
 
     /// Looks for the components of every motion class.

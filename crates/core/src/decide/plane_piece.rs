@@ -8,9 +8,7 @@ use crate::contract::Contraction;
 use crate::contract::piece::{Assembly, Core, Members};
 use crate::decide::claim::Strength;
 use crate::decide::error::VerdictError;
-use crate::decide::evidence::{
-    Bound, Class, ClassKind, Counting, Evidence, ModularDraw, PieceVerdict,
-};
+use crate::decide::evidence::{Class, ClassKind, Counting, Evidence, ModularDraw, PieceVerdict};
 use crate::decide::motion_class;
 use crate::decide::options::Options;
 use crate::geometry::draw;
@@ -178,7 +176,7 @@ impl Piece<'_> {
             let classes = components.iter().map(|members| self.class(members));
             return Ok(vec![
                 Evidence::PlaneMinor { draw, pivots },
-                Evidence::Upper(Bound::Counting(counting).into()),
+                Evidence::Counting(counting),
                 Evidence::Classes(classes.collect::<Result<_, _>>()?),
                 Evidence::Kernel {
                     draw,

@@ -75,16 +75,6 @@ impl<'a> Stresses<'a> {
         self.dimension
     }
 
-    /// Whether what these members see of the stresses is independent of what those see. Then, and
-    /// only then, the ranks of everything without the one and of everything without the others add
-    /// up to that of everything and that of everything without both (Lemma 5.12 of docs/theory.md).
-    pub fn independent(&self, one: u64, other: u64) -> bool {
-        let mut both = self.seen(one);
-        let (alone, others) = (both.dimension(), self.seen(other).dimension());
-        self.add(&mut both, other);
-        both.dimension() == alone + others
-    }
-
     /// The finest partition of the members such that the stresses are the direct sum of those of its
     /// parts, as the number of each member's part: then the rank is the sum of the parts' ranks
     /// (Lemma 5.12), so a bound that meets it is a sum of bounds that do. A member that sees no
@@ -106,22 +96,6 @@ impl<'a> Stresses<'a> {
             }
         }
         (0..members).map(|member| joined.find(member)).collect()
-    }
-
-    fn seen(&self, set: u64) -> Span {
-        let mut span = Span::default();
-        self.add(&mut span, set);
-        span
-    }
-
-    fn add(&self, span: &mut Span, set: u64) {
-        for (position, vectors) in self.of_member.iter().enumerate() {
-            if set >> position & 1 == 1 {
-                for vector in vectors {
-                    span.insert(self.field, vector.clone());
-                }
-            }
-        }
     }
 }
 
@@ -150,53 +124,6 @@ mod tests {
             .collect();
         let rows = jacobian(&field, &graph, &cameras);
         textbook::eliminate(&field, &dense(&field, &rows, 12 * nodes as usize)).rank()
-    }
-
-    /// K_{2,3} with a further path 1-5-6-0 and the edge 01: 9 edges and a rank below 63. Parts of
-    /// it are independent exactly if the ranks of the rest say so.
-    #[test]
-    fn independent_is_what_ranks_say() {
-        let field = PrimeField::mersenne61();
-        let pairs = [
-            (0, 1),
-            (0, 2),
-            (0, 3),
-            (0, 4),
-            (0, 6),
-            (1, 2),
-            (1, 3),
-            (1, 4),
-            (1, 5),
-            (5, 6),
-        ];
-        let graph = Graph::new(7, pairs).unwrap();
-        let assembly = Assembly::new(&graph, &Contraction::none(&graph));
-        let core = assembly.core(&assembly.all());
-        let key = DrawKey {
-            graph_sha256: [1; 32],
-            core_sha256: None,
-            seed: 1,
-            draw: 0,
-        };
-        let stresses = unwatched(|task| {
-            Stresses::new(&field, &core, pairs.len(), &mut key.residues(&field), task)
-        });
-        assert_eq!(stresses.dimension(), 70 - rank(7, &pairs));
-        let without = |set: u64| -> Vec<(u32, u32)> {
-            let outside = |&k: &usize| set >> k & 1 == 0;
-            (0..pairs.len()).filter(outside).map(|k| pairs[k]).collect()
-        };
-        let mut seen = [0; 2];
-        // The edge 02 on its own, with others against the rest of them.
-        for one in 1..32u64 {
-            for other in (1..32u64).map(|set| set << 5) {
-                let modular = rank(7, &without(one)) + rank(7, &without(other))
-                    == rank(7, &pairs) + rank(7, &without(one | other));
-                assert_eq!(stresses.independent(one, other), modular, "{one} {other}");
-                seen[usize::from(modular)] += 1;
-            }
-        }
-        assert!(seen[0] > 0 && seen[1] > 0, "{seen:?}");
     }
 
     /// Two K_{2,3} that share a node with a path between them, contracted by nothing: each has

@@ -37,10 +37,7 @@ pub(super) fn count(
         bound: groups + bounds.sum::<usize>(),
         blocks: blocks
             .into_iter()
-            .map(|members| Block {
-                members,
-                loss: None,
-            })
+            .map(|members| Block { members, hub: None })
             .collect(),
     }
 }

@@ -149,44 +149,12 @@ impl<'a> Piece<'a> {
         Ok(best.expect("one draw at least"))
     }
 
-    /// The bound by counting, if it is the rank.
-    pub(super) fn counted(&self) -> Result<Option<Counting>, VerdictError> {
-        // Where to look is not a claim: a large prime looks best.
-        let field = PrimeField::mersenne61();
-        let at = Centres::draw(&field, self.core, self.key(0))?;
-        let ranks = self.ranks(&at)?;
-        if ranks.rank == self.required() {
-            let whole = std::slice::from_ref(self.members);
-            return Ok(Some(Counting::partition(
-                self.model(),
-                self.assembly,
-                whole,
-            )));
-        }
-        let Some((classes, _)) = self.separate(&ranks) else {
-            return Ok(None);
-        };
-        let mut components = Vec::new();
-        for class in classes {
-            match self.alone(&class, 0)? {
-                Alone::Single | Alone::Rigid(_) => components.push(class),
-                // Any partition will do to count by.
-                Alone::Loose(_) => components.extend(class.singles()),
-            }
-        }
-        let rank = self.rank_of_piece(ranks.rank);
-        let bound = self.count(&at, &components, rank, false)?;
-        Ok((bound.bound <= rank).then_some(bound))
-    }
-
-    /// The upper bound by counting (Theorem 5.5), and by points as well if these are wanted
-    /// (Theorem 5.16).
+    /// The upper bound by counting (Theorem 5.5).
     pub(super) fn count(
         &self,
         at: &Centres,
         components: &[Members],
         lower: usize,
-        points: bool,
     ) -> Result<Counting, Stopped> {
         // Where to look is not a claim: a large prime looks best.
         let field = PrimeField::mersenne61();
@@ -196,7 +164,6 @@ impl<'a> Piece<'a> {
             field: &field,
             random: &mut at.key.residues(&field),
             task: work.task(),
-            points,
         };
         counting::count(
             self.model(),

@@ -10,7 +10,7 @@ use super::Unproved;
 use super::bodies::{Record, Set, of_sets_told_apart};
 use super::listed::Reason;
 use super::text::{Components, Step};
-use super::upper::{self, Blocks};
+use super::upper::{self, Block};
 use crate::contract::Body;
 use crate::contract::piece::Members;
 use crate::decide::Verdict;
@@ -164,7 +164,7 @@ impl Made<'_> {
                 ends,
                 frame,
                 motion,
-                blocks: Box::new(blocks),
+                blocks,
             }
         } else {
             Step::Cut(ends)
@@ -183,13 +183,13 @@ fn bound(
     piece: &PieceVerdict,
     bodies: &[Body],
     sets: &[Set],
-) -> Result<(usize, Blocks), Unproved> {
+) -> Result<(usize, Vec<Block>), Unproved> {
     let alone = sets.iter().map(|(nodes, _)| model.full(nodes.len())).sum();
     let upper = piece.upper / model.times();
     if upper >= alone {
-        return Ok((alone, Blocks::default()));
+        return Ok((alone, Vec::new()));
     }
     let blocks = upper::of_piece(model, piece, bodies)?;
-    let held = sets.iter().all(|(nodes, _)| blocks.hold(nodes));
+    let held = sets.iter().all(|(nodes, _)| upper::hold(&blocks, nodes));
     held.then_some((upper, blocks)).ok_or(Unproved::UpperBound)
 }

@@ -37,7 +37,7 @@ pub enum Unproved {
     Known,
     /// A graph with one node.
     OneNode,
-    /// An upper bound that blocks, hubs and overlaps alone do not show.
+    /// An upper bound that blocks and hubs alone do not show.
     UpperBound,
     /// The rank rests on draws, with an error bound.
     ErrorBound,
@@ -55,7 +55,7 @@ impl fmt::Display for Unproved {
             Self::Known => f.write_str("not with known parts or displacements"),
             Self::OneNode => f.write_str("a graph with one node has nothing to prove"),
             Self::UpperBound => {
-                f.write_str("an upper bound that blocks, hubs and overlaps alone do not show")
+                f.write_str("an upper bound that blocks and hubs alone do not show")
             }
             Self::ErrorBound => f.write_str("a rank that is known with an error bound only"),
             Self::Core(nodes) => write!(f, "a core of {nodes} nodes, of {LARGEST_CORE} at most"),
@@ -101,7 +101,7 @@ impl Verdict {
         let (upper, blocks) = if refuted {
             upper::of(self)?
         } else {
-            (full, upper::Blocks::default())
+            (full, Vec::new())
         };
         if refuted && upper >= full {
             return Err(Unproved::ErrorBound);

@@ -48,25 +48,6 @@ fn a_hub_is_written_with_its_split_graph() {
     }));
 }
 
-/// Parts that overlap, each of which has a hub, and implied pairs (theory, Examples 5.10 and 5.14).
-#[test]
-fn parts_that_overlap_are_written() {
-    for (graph6, rank) in [("M?YTD@OS@_E?H?E??", 138), ("O?IWqCO_K@K?W?GOCC@@?", 160)] {
-        let graph = graph6::decode(graph6.as_bytes()).unwrap();
-        let proof = proof_of(&graph, Question::default()).unwrap();
-        assert_eq!((proof.lower(), proof.upper()), (rank, rank));
-        assert_eq!(proof.components(), Some(graph.edges().len()));
-        let text = proof.to_string();
-        let words = ["block", "other", "hub", "shared"];
-        assert!(
-            words
-                .iter()
-                .all(|word| text.contains(&format!("\n{word} "))),
-            "{text}"
-        );
-    }
-}
-
 #[test]
 fn what_has_no_proof_yet_is_refused_by_name() {
     let pair = Graph::new(2, [(0, 1)]).unwrap();

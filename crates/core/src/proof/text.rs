@@ -2,7 +2,7 @@
 
 use super::links::{Link, Step as Settled, Unique, Via};
 use super::listed::{Join, Listed};
-use super::upper::{Block, Blocks};
+use super::upper::Block;
 use crate::geometry::model::Model;
 use std::fmt;
 
@@ -17,7 +17,7 @@ pub struct Proof {
     /// The last one has the rank `lower`; all before are rigid.
     pub(super) bodies: Vec<Listed>,
     /// Pairs in none of them are blocks by themselves.
-    pub(super) blocks: Blocks,
+    pub(super) blocks: Vec<Block>,
     pub(super) components: Option<Components>,
     /// Sets that are uniquely determined, the last of which holds all nodes, if the bodies do not show it.
     pub(super) uniques: Vec<Unique>,
@@ -44,7 +44,7 @@ pub(super) enum Step {
         frame: Listed,
         motion: Vec<u32>,
         /// Components in none of them are blocks by themselves.
-        blocks: Box<Blocks>,
+        blocks: Vec<Block>,
     },
 }
 
@@ -158,7 +158,7 @@ impl fmt::Display for Proof {
         for body in &self.bodies {
             write!(f, "body {body}")?;
         }
-        write!(f, "{}", self.blocks)?;
+        write_blocks(f, &self.blocks)?;
         if let Some(Components { bodies, steps }) = &self.components {
             numbers(f, "components", bodies)?;
             steps.iter().try_for_each(|step| write!(f, "{step}"))?;
@@ -190,27 +190,17 @@ impl fmt::Display for Step {
                     let node: Vec<String> = node.iter().map(u32::to_string).collect();
                     writeln!(f, "{}", node.join(" "))?;
                 }
-                write!(f, "{blocks}")
+                write_blocks(f, blocks)
             }
         }
     }
 }
 
-impl fmt::Display for Blocks {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let list = |f: &mut fmt::Formatter<'_>, word, blocks: &[Block]| {
-            blocks.iter().try_for_each(|block| {
-                numbers(f, word, &block.nodes)?;
-                write!(f, "{block}")
-            })
-        };
-        list(f, "block", &self.first)?;
-        list(f, "other", &self.second)?;
-        match &self.shared {
-            Some(body) => write!(f, "shared {body}"),
-            None => Ok(()),
-        }
-    }
+fn write_blocks(f: &mut fmt::Formatter<'_>, blocks: &[Block]) -> fmt::Result {
+    blocks.iter().try_for_each(|block| {
+        numbers(f, "block", &block.nodes)?;
+        write!(f, "{block}")
+    })
 }
 
 /// The hub of a block, if it has one, behind its nodes.

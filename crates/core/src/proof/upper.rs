@@ -1,17 +1,12 @@
-//! Upper bounds by blocks (docs/proof.md): hubs, parts that overlap.
+//! Upper bounds by blocks, with hubs (docs/proof.md).
 //!
-//! In: the pieces of a verdict. Out: one or two lists of blocks, what both have in common, and the sum.
-//!
-//! Without hubs, parts that overlap and added pairs never give less than a partition does: the
-//! smallest sum over partitions is submodular in the pairs, and grows with them.
+//! In: the pieces of a verdict. Out: a list of blocks, and the sum.
 
 use super::Unproved;
-use super::bodies::{Set, of_sets};
-use super::listed::Listed;
 use crate::contract::Body;
 use crate::contract::piece::Members;
-use crate::decide::evidence::{Block as Counted, Bound, Evidence, Hub, PieceVerdict, Upper};
-use crate::decide::{Counting, Overlap, Verdict};
+use crate::decide::Verdict;
+use crate::decide::evidence::{Block as Counted, Evidence, Hub, PieceVerdict};
 use crate::geometry::model::Model;
 
 /// Nodes, or cells of a split graph of them.
@@ -30,20 +25,9 @@ pub(super) struct Split {
     pub(super) cells: Vec<Vec<u32>>,
 }
 
-/// Blocks, other blocks, and a body for what both have in common.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Blocks {
-    pub(super) first: Vec<Block>,
-    pub(super) second: Vec<Block>,
-    pub(super) shared: Option<Listed>,
-}
-
-impl Blocks {
-    /// Whether a cell of a block holds all these nodes.
-    pub(super) fn hold(&self, nodes: &[u32]) -> bool {
-        let mut blocks = self.first.iter().chain(&self.second);
-        blocks.any(|block| block.holds(nodes))
-    }
+/// Whether a cell of a block holds all these nodes.
+pub(super) fn hold(blocks: &[Block], nodes: &[u32]) -> bool {
+    blocks.iter().any(|block| block.holds(nodes))
 }
 
 impl Block {
@@ -59,7 +43,7 @@ impl Block {
 
     fn of(counted: &Counted, bodies: &[Body]) -> Self {
         let mut nodes = counted.members.nodes(bodies);
-        let split = counted.hub().map(|hub| {
+        let split = counted.hub.as_ref().map(|hub| {
             nodes.retain(|&v| v != hub.node);
             nodes.insert(0, hub.node);
             Split::of(hub, &nodes, bodies)
@@ -98,19 +82,21 @@ impl Split {
 }
 
 /// The bound of a verdict.
-pub(super) fn of(verdict: &Verdict) -> Result<(usize, Blocks), Unproved> {
+pub(super) fn of(verdict: &Verdict) -> Result<(usize, Vec<Block>), Unproved> {
     let bodies = &verdict.contraction.bodies;
     let mut sum = 0;
-    let mut found = Found::new(verdict.model);
+    let mut found = Vec::new();
     for part in verdict.rigid.singles() {
         let nodes = part.nodes(bodies);
         sum += verdict.model.full(nodes.len());
-        found.first.push(Block { nodes, split: None });
+        found.push(Block { nodes, split: None });
     }
     for piece in &verdict.pieces {
-        sum += found.piece(piece, bodies)?;
+        found.extend(of_piece(verdict.model, piece, bodies)?);
+        let full = verdict.model.full(piece.members.nodes(bodies).len());
+        sum += full.min(piece.upper / verdict.model.times());
     }
-    Ok((sum, found.blocks()?))
+    Ok((sum, found.into_iter().filter(counts).collect()))
 }
 
 /// The bound of a piece alone.
@@ -118,112 +104,26 @@ pub(super) fn of_piece(
     model: Model,
     piece: &PieceVerdict,
     bodies: &[Body],
-) -> Result<Blocks, Unproved> {
-    let mut found = Found::new(model);
-    found.piece(piece, bodies)?;
-    found.blocks()
-}
-
-/// Both lists, and the sets and the rank of what they have in common.
-struct Found {
-    model: Model,
-    first: Vec<Block>,
-    second: Vec<Block>,
-    shared: Vec<Set>,
-    rank: usize,
-}
-
-impl Found {
-    fn new(model: Model) -> Self {
-        Self {
-            model,
-            first: Vec::new(),
-            second: Vec::new(),
-            shared: Vec::new(),
-            rank: 0,
-        }
-    }
-
-    /// What a piece counts.
-    fn piece(&mut self, piece: &PieceVerdict, bodies: &[Body]) -> Result<usize, Unproved> {
-        let nodes = piece.members.nodes(bodies);
-        let full = self.model.full(nodes.len());
-        let upper = piece.upper / self.model.times();
-        if upper >= full {
-            self.first.push(Block { nodes, split: None });
-            return Ok(full);
-        }
-        let bounds = piece.evidence.iter().filter_map(|evidence| match evidence {
-            // Points are a step that proofs do not know.
-            Evidence::Upper(by) if bound_of(by) == piece.upper && !by.has_points() => Some(by),
-            _ => None,
-        });
-        match &bounds
-            .min_by_key(|upper| complexity(upper))
-            .ok_or(Unproved::UpperBound)?
-            .by
-        {
-            Bound::Counting(counting) => self.first.extend(blocks_of(counting, bodies)),
-            Bound::Overlap(overlap) => self.overlap(overlap, bodies),
-        }
-        Ok(upper)
-    }
-
-    fn overlap(&mut self, overlap: &Overlap, bodies: &[Body]) {
-        self.first.extend(blocks_of(&overlap.first, bodies));
-        self.second.extend(blocks_of(&overlap.second, bodies));
-        self.rank += overlap.first.bound + overlap.second.bound - overlap.bound;
-        let mut shared = overlap.shared.rigid.clone();
-        for piece in &overlap.shared.pieces {
-            shared.extend(&piece.members);
-        }
-        let sets = shared
-            .singles()
+) -> Result<Vec<Block>, Unproved> {
+    let nodes = piece.members.nodes(bodies);
+    if piece.upper / model.times() >= model.full(nodes.len()) {
+        return Ok([Block { nodes, split: None }]
             .into_iter()
-            .map(|one| (one.nodes(bodies), 0));
-        self.shared.extend(sets);
+            .filter(counts)
+            .collect());
     }
-
-    /// Without other blocks a pair needs no block of its own.
-    fn blocks(mut self) -> Result<Blocks, Unproved> {
-        if self.second.is_empty() {
-            self.first.retain(|block| block.nodes.len() > 2);
-            return Ok(Blocks {
-                first: self.first,
-                ..Blocks::default()
-            });
-        }
-        let shared = Some(of_sets(self.model, &self.shared, self.rank)?);
-        Ok(Blocks {
-            first: self.first,
-            second: self.second,
-            shared,
-        })
-    }
+    let counting = piece.evidence.iter().find_map(|evidence| match evidence {
+        Evidence::Counting(counting) if counting.bound == piece.upper => Some(counting),
+        _ => None,
+    });
+    let blocks = counting.ok_or(Unproved::UpperBound)?.blocks.iter();
+    let blocks = blocks.map(|block| Block::of(block, bodies));
+    Ok(blocks.filter(counts).collect())
 }
 
-fn bound_of(upper: &Upper) -> usize {
-    match &upper.by {
-        Bound::Counting(counting) => counting.bound,
-        Bound::Overlap(overlap) => overlap.bound,
-    }
-}
-
-/// Blocks alone before hubs, and these before parts that overlap.
-fn complexity(upper: &Upper) -> usize {
-    match &upper.by {
-        Bound::Counting(counting) if counting.blocks.iter().all(|block| block.loss.is_none()) => 0,
-        Bound::Counting(_) => 1,
-        Bound::Overlap(_) => 2,
-    }
-}
-
-fn blocks_of(counting: &Counting, bodies: &[Body]) -> Vec<Block> {
-    counting
-        .blocks
-        .iter()
-        .map(|block| Block::of(block, bodies))
-        .collect()
+/// A pair needs no block of its own.
+fn counts(block: &Block) -> bool {
+    block.nodes.len() > 2
 }
 
 impl Members {

@@ -11,7 +11,7 @@
 use super::slack::{Block, slack};
 use viewcert::contract::Members;
 use viewcert::decide::evidence::Evidence;
-use viewcert::decide::{Bound, Counting, Hub, Verdict};
+use viewcert::decide::{Counting, Hub, Verdict};
 use viewcert::graph::UnionFind;
 
 /// Blocks of a kernel, some with a hub.
@@ -49,10 +49,7 @@ impl Refutation {
             .iter()
             .rev()
             .find_map(|evidence| match evidence {
-                Evidence::Upper(upper) if upper.added.is_empty() => match &upper.by {
-                    Bound::Counting(counting) => Some(counting),
-                    Bound::Overlap(_) => None,
-                },
+                Evidence::Counting(counting) => Some(counting),
                 _ => None,
             })?;
         Self::of_counting(counting, verdict, halves)
@@ -64,7 +61,7 @@ impl Refutation {
             let edges = halves.of(&block.members, verdict);
             if edges.len() > 1 {
                 let whole = halves.whole(&edges)?;
-                let deduction = match block.hub() {
+                let deduction = match &block.hub {
                     Some(hub) => Some(halves.deduction(whole, hub, verdict)?),
                     None => None,
                 };
@@ -229,11 +226,11 @@ mod tests {
                     };
                     let has_hub = verdict.pieces.iter().flat_map(|piece| &piece.evidence);
                     let has_hub = has_hub.filter_map(|evidence| match evidence {
-                        Evidence::Upper(upper) => Some(upper),
+                        Evidence::Counting(counting) => Some(counting),
                         _ => None,
                     });
-                    let mut has_hub = has_hub.flat_map(|upper| upper.countings());
-                    if has_hub.any(|counting| counting.blocks.iter().any(|one| one.hub().is_some()))
+                    let mut has_hub = has_hub.flat_map(|counting| &counting.blocks);
+                    if has_hub.any(|block| block.hub.is_some())
                         && let Some(refutation) = Refutation::of(&verdict, &halves)
                     {
                         assert!(

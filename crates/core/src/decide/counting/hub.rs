@@ -307,7 +307,6 @@ mod tests {
                 field: &field,
                 random: &mut random,
                 task: *task,
-                points: false,
             };
             search(&assembly, &block, &block.singles(), &mut by)
         });

@@ -3,8 +3,7 @@
 //!
 //! *Partition*: the rank is at most the sum of `required(n_B)` over the blocks of any
 //! partition of the edges. *Hub*: a block of projective cameras loses more where the
-//! plane flows into a node are too few for the parts that meet there. *Points*: so it does where
-//! flows of few edges, seen from up to four nodes, have few cycles to run in.
+//! plane flows into a node are too few for the parts that meet there.
 //!
 //! What the search covers: the partition into the given components; a hub at any node
 //! of a block with the components as parts and, failing that, with the members (bodies
@@ -15,11 +14,9 @@
 //! where at most 16 parts meet. Rank is then taken off the block by the best single hub. Where that
 //! does not meet the lower bound and there are at most 64 components, all this is tried again on
 //! the parts whose ranks add up to that of the piece, and then with each one of the components left
-//! out as a block of its own: what is rigid without it may be a smaller block that has a hub. Points
-//! are looked for where all else has failed, in blocks without a hub.
+//! out as a block of its own: what is rigid without it may be a smaller block that has a hub.
 
 mod hub;
-mod points;
 mod search;
 
 #[cfg(test)]
@@ -27,7 +24,7 @@ pub(crate) use hub::GAMMA;
 pub(crate) use search::Search;
 
 use crate::contract::piece::{Assembly, Members};
-use crate::decide::evidence::{Block, Counting, Loss};
+use crate::decide::evidence::{Block, Counting};
 use crate::decide::motion_class;
 use crate::decide::stresses::Stresses;
 use crate::geometry::model::Model;
@@ -50,7 +47,7 @@ impl Counting {
                 .iter()
                 .map(|members| Block {
                     members: members.clone(),
-                    loss: None,
+                    hub: None,
                 })
                 .collect(),
         }
@@ -82,7 +79,7 @@ pub(crate) fn count(
     if partition.bound <= target || model == Model::Calibrated {
         return Ok(partition);
     }
-    let whole = with_loss(assembly, piece, components, by)?;
+    let whole = with_hub(assembly, piece, components, by)?;
     if whole.bound <= target {
         return Ok(whole);
     }
@@ -160,7 +157,7 @@ fn by_rigid_blocks(
         if inside.len() < 2 {
             return Ok(split);
         }
-        let one = with_loss(assembly, block, &inside, by)?;
+        let one = with_hub(assembly, block, &inside, by)?;
         Ok(if one.bound < split.bound { one } else { split })
     });
     Ok(Counting::join(blocks.collect::<Result<_, _>>()?))
@@ -173,9 +170,8 @@ fn within(components: &[Members], part: &Members) -> Vec<Members> {
     inside.cloned().collect()
 }
 
-/// One block, with the best hub that the search finds (Theorem 5.2), or else points if these are
-/// looked for (Theorem 5.16).
-fn with_loss(
+/// One block, with the best hub that the search finds (Theorem 5.2).
+fn with_hub(
     assembly: &Assembly,
     block: &Members,
     components: &[Members],
@@ -185,16 +181,12 @@ fn with_loss(
     if hub.is_none() && components.len() < block.len() {
         hub = hub::search(assembly, block, &block.singles(), by)?;
     }
-    let mut loss = hub.map(Loss::Hub);
-    if loss.is_none() && by.points {
-        loss = points::search(assembly, block, by)?.map(Loss::Points);
-    }
     let required = Model::Projective.required(assembly.count_nodes(block));
     Ok(Counting {
-        bound: required - loss.as_ref().map_or(0, Loss::less),
+        bound: required - hub.as_ref().map_or(0, |hub| hub.less),
         blocks: vec![Block {
             members: block.clone(),
-            loss,
+            hub,
         }],
     })
 }

@@ -12,8 +12,6 @@ pub(crate) struct Search<'a> {
     pub random: &'a mut dyn FnMut() -> u64,
     /// What it counts as.
     pub task: Task<'a>,
-    /// Whether blocks without a hub are looked at from points as well.
-    pub points: bool,
 }
 
 impl Search<'_> {

@@ -70,7 +70,7 @@ fn check_evidence(assembly: &Assembly, piece: &PieceVerdict, sha256: [u8; 32]) {
         }
         [
             Evidence::PlaneMinor { draw, pivots },
-            Evidence::Upper(upper),
+            Evidence::Counting(upper),
             Evidence::Classes(classes),
             Evidence::Kernel {
                 draw: again,
@@ -79,7 +79,7 @@ fn check_evidence(assembly: &Assembly, piece: &PieceVerdict, sha256: [u8; 32]) {
         ] => {
             assert_eq!(draw, again);
             assert_eq!(4 * (above + pivots.rank()), piece.lower);
-            assert_eq!(upper.value(), piece.upper);
+            assert_eq!(upper.bound, piece.upper);
             assert_eq!(piece.lower, piece.upper);
             assert!(classes.len() > 1);
             let field = PrimeField::new(draw.prime).unwrap();
