@@ -162,7 +162,6 @@ class LowerBounds(Members):
 
     def lower_bounds(self, core, evidence, where):
         """Section 7: the ranks that a list of lower bounds, and of nothing else, shows for a core."""
-        need(evidence, f"{where}: no evidence")
         found = []
         for value in evidence:
             need(type(value) is dict and type(value.get("kind")) is str, f"{where}: evidence without a kind")

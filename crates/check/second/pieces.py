@@ -48,7 +48,7 @@ class Pieces(UpperBounds):
         need(len(kinds["draws"]) <= 1, f"{where}more than one draws")
         need(len(kinds["classes"]) <= 1, f"{where}more than one classes")
         need(kinds["classes"] or not kinds["kernel"], f"{where}a kernel without classes")
-        bounds = [check(self, value, group, at) for kind, check in self.UPPER.items() for value, at in kinds[kind]]
+        bounds = [getattr(self, check)(value, group, at) for kind, check in self.UPPER.items() for value, at in kinds[kind]]
         piece.upper = min(bounds + [piece.required])
         classes = [self.check_classes(value, group, at) for value, at in kinds["classes"]]
         lower = [(self.check_lower(value, core, at), value) for value, at in kinds["lower"]]

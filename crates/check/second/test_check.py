@@ -776,6 +776,14 @@ class LowerBounds(Case):
             self.broken(document, lambda d: evidence(d, "integer-minor").update(determinant=value), words)
         self.broken(document, lambda d: evidence(d, "integer-minor").update(prime="7"), "one of determinant and prime")
 
+    def test_what_the_laboratory_has_is_refused_by_name(self):
+        for kind, change in (
+            ("overlap", lambda d: evidence(d, "counting").update(kind="overlap")),
+            ("added", lambda d: evidence(d, "counting").update(added=[[0, 2]])),
+            ("points", lambda d: evidence(d, "counting")["blocks"][0].update(points={})),
+        ):
+            self.broken(by_hand(), change, f"evidence {kind} belongs to the laboratory")
+
     def test_bounds_must_not_cross(self):
         """No certificate can show this, unless a condition is not sound: a bound is replaced by a false one."""
         for name, false, words in (

@@ -107,4 +107,4 @@ class UpperBounds(Bodies):
         need(an_int(less, f"{where}: less") == takes and takes >= 1, f"{where}: it takes off {takes}")
         return takes
 
-    UPPER = {"counting": check_counting}
+    UPPER = {"counting": "check_counting"}

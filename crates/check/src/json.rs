@@ -323,17 +323,26 @@ macro_rules! any_members {
         impl AnyMembers {
             fn read<'de, A: serde::de::MapAccess<'de>>(mut object: A) -> Result<Self, A::Error> {
                 let mut members = AnyMembers::default();
+                let mut unknown: Option<String> = None;
                 while let Some(name) = object.next_key::<$crate::json::Name>()? {
                     match name.as_str() {
                         "kind" => $crate::json::fill(&mut object, "kind", &mut members.kind)?,
                         $(stringify!($member) => $crate::json::fill(
                             &mut object, stringify!($member), &mut members.$member,
                         )?,)*
-                        // What the kind has may be unknown as the kind is.
-                        other => return Err($crate::json::unknown(members.kind.as_deref().filter(|kind| $crate::json::is_of_laboratory(kind)).unwrap_or(other))),
+                        other => {
+                            object.next_value::<serde::de::IgnoredAny>()?;
+                            unknown = unknown.or(Some(other.into()));
+                        }
                     }
                 }
-                Ok(members)
+                // Where the kind is unknown as well, it says more.
+                let kind = members.kind.clone();
+                let kind = kind.filter(|kind| $crate::json::is_of_laboratory(kind));
+                match unknown {
+                    Some(name) => Err($crate::json::unknown(&kind.unwrap_or(name))),
+                    None => Ok(members),
+                }
             }
 
             /// Rejects members that the kind does not have: all that it has were taken.
