@@ -202,7 +202,3 @@ def witness(verdict: Any, *, full: bool = False, seed: Optional[int] = None) -> 
     families = (np.array([[list(map(int, row)) for row in camera] for camera in said[name]], dtype=np.uint64)
                 for name in ("first", "second"))
     return Witness(int(said["prime"]), nodes, *families)
-    said: Dict[str, Any] = json.loads(text)
-    families = (np.array([[list(map(int, row)) for row in camera] for camera in said[name]], dtype=np.uint64)
-                for name in ("first", "second"))
-    return Witness(int(said["prime"]), tuple(verdict.graph.nodes), *families)
