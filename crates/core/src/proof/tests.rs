@@ -181,13 +181,14 @@ fn scales_are_settled_where_there_is_one_solution() {
     assert!(!proof.is_solvable() && !proof.to_string().contains("unique"));
 }
 
-/// The same triangle in each model: 11 n - 15, 3 n - 4, 2 n - 3.
+/// The same triangle in each model: 11 n - 15, 3 n - 4, 2 n - 3 in the text, four times that in verdicts.
 #[test]
 fn other_models_are_named() {
     let triangle = Graph::new(3, [(0, 1), (0, 2), (1, 2)]).unwrap();
     for (model, rank) in [(Model::Calibrated, 5), (Model::Affine, 3)] {
         let proof = proof_of(&triangle, model.into()).unwrap();
-        assert_eq!((proof.lower(), proof.upper()), (rank, rank));
+        let times = model.times();
+        assert_eq!((proof.lower(), proof.upper()), (times * rank, times * rank));
         assert!(proof.is_solvable());
         let text = proof.to_string();
         assert!(text.starts_with(&format!(
@@ -231,7 +232,7 @@ fn directions_tell_components_apart() {
     for (nodes, model, width) in [(5, Model::Calibrated, 3), (4, Model::Affine, 2)] {
         let cycle = Graph::new(nodes, (0..nodes).map(|v| (v, (v + 1) % nodes))).unwrap();
         let proof = proof_of(&cycle, model.into()).unwrap();
-        let count = (width - 1) * nodes as usize;
+        let count = model.times() * (width - 1) * nodes as usize;
         assert_eq!((proof.lower(), proof.upper()), (count, count));
         assert_eq!(proof.components(), Some(nodes as usize));
         assert!(!proof.is_solvable());
@@ -248,6 +249,6 @@ fn a_large_core_of_directions_has_rows() {
     let around = (0..nodes).flat_map(|v| [1, 11].map(|step| (v, (v + step) % nodes)));
     let graph = Graph::new(nodes, around).unwrap();
     let proof = proof_of(&graph, Model::Affine.into()).unwrap();
-    assert_eq!((proof.lower(), proof.upper()), (241, 241));
+    assert_eq!((proof.lower(), proof.upper()), (4 * 241, 4 * 241));
     assert!(!proof.to_string().contains("flows"));
 }
