@@ -1,483 +1,705 @@
 //! Somebody else's results: a table of claims, each decided again exactly.
 //!
-//! A row names a graph and claims a verdict, a number of components, a rank, or several of
-//! these. Columns are known by their names (letters of either case):
-//!
-//! | column | holds |
-//! |---|---|
-//! | `graph` | a path, `path:line` for a line of a graph6 file, or a graph6 line |
-//! | `file` | a file name in the folder of graphs |
-//! | `name` | a name in the folder of graphs, with or without what follows the dot |
-//! | `verdict` | `solvable`, `finite-solvable`, `not-finite-solvable`, `not-solvable` |
-//! | `components`, `components_...` | a number of maximal finite-solvable components |
-//! | `solutions` | how many solutions there are: a number, `1` meaning solvable |
-//! | `rank` | the generic rank of J_P (calibrated: of N; affine: four times that of R) |
-//! | `model` | `projective`, which is meant where it is not said, `calibrated` or `affine` |
-//! | `nodes`, `edges`, `sha256` | size and hash, to tell whether it is the graph that was meant |
-//! | `seconds`, `seconds_...`, `density_...` | how long it took, how dense it is: no claim |
-//!
-//! Any other column is refused, so that no claim is passed over for a slip of the pen, unless the
-//! caller names it as one to be ignored. Of several columns that name a graph the first in the
-//! order of this table counts.
-//!
-//! A table is comma-separated values with a head, a JSON list of objects, or JSON objects one
-//! after another. Among the latter two the objects that `verify --json` prints are known, whose
-//! members are not flat.
+//! In: a row of a [`table`](super::table), which names a graph and claims a verdict, a number of components, a rank, or
+//! several of these; or what `verify --json` wrote. Out: whether that is so. docs/audit.md has the columns.
 
-mod graphs;
-mod ruling;
-
-pub use graphs::{GraphError, graph};
-pub use ruling::{Claim, ClaimedVerdict, Named, RowError, Ruling, claim, rule};
-
-use serde::Deserialize;
-use serde::de::{Deserializer, MapAccess, Visitor};
-use serde_json::Value as Json;
+use super::table::{BadRow, Columns, Row, TableError};
+use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
-use std::fmt;
-use viewcert::wording::counted;
-use viewcert_formats::csv;
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
+use viewcert::Model;
+use viewcert::certificate::hex;
+use viewcert::decide::{
+    CountSolutions, Options, Projective, Value, Verdict, VerdictError, decide, plane_rank,
+};
+use viewcert::graph::{Graph, UnionFind, graph6};
+use viewcert::solutions::Number;
+use viewcert::watch::{Stopped, Watch};
+use viewcert_formats::read::{Graphs, graphs};
+use viewcert_formats::{NamedGraph, ReadOptions, read_graphs};
 
-/// A row of a table.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Row {
-    /// Its line in the table, from 1.
-    pub line: usize,
-    /// The cells by the names of their columns, in lower case.
-    pub cells: BTreeMap<String, String>,
-    /// Cameras and pairs of every component, where they are listed.
-    pub sizes: Option<Vec<(usize, usize)>>,
-}
+/// The columns that claim something or name a graph.
+const KNOWN: &str = "graph graph6 file name verdict components components_ solutions rank rank_required model nodes \
+                     edges sha256 unique_by_contraction error";
 
-/// Why a table cannot be read.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{problem}")]
-pub struct TableError {
-    /// The line of the table, from 1.
-    pub line: usize,
-    /// What is wrong there.
-    pub problem: TableProblem,
-}
+/// Those that say how an answer was found, or how a graph looks.
+const SILENT: &str = "seconds seconds_ density_ strength degrees girth automorphisms triangles";
 
-/// What is wrong with a table.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum TableProblem {
-    /// Nothing at all.
-    #[error("the table is empty: a head with the names of the columns is needed")]
-    Empty,
-    /// A head, or a list, of nothing.
-    #[error("the table has no rows, and so claims nothing")]
-    NoRows,
-    /// A column, or a member, that says nothing here.
-    #[error(
-        "unknown column {0:?}; known are graph, file, name, verdict, components, solutions, rank, model, nodes, edges, \
-         sha256, and seconds and density, which claim nothing; correct it, or leave it out with \
-         --ignore {0}"
-    )]
-    Column(String),
-    /// A column, or a member, more than once.
-    #[error("column {0:?} stands there twice")]
-    Twice(String),
-    /// A row has more or fewer cells than the head.
-    #[error("{}, and the head has {expected}", counted(*.found, "cell"))]
-    Cells {
-        /// Cells of the head.
-        expected: usize,
-        /// Cells of the line.
-        found: usize,
-    },
-    /// A quoted cell does not end.
-    #[error("a quoted cell does not end on its line")]
-    Quote,
-    /// A list or an object in the place of a value.
-    #[error("{0:?} is a list or an object; a row takes strings and numbers")]
-    Nested(String),
-    /// The output of `verify --json`, but not as it is written.
-    #[error("not a line as `verify --json` writes it: {0}")]
-    Report(String),
-    /// Not JSON, or not a list of objects.
-    #[error("not a JSON list of objects, nor one object after another: {0}")]
-    Json(String),
-}
+/// Members of a record that say how its answer was found, or what follows from it: no claims of their own.
+const BESIDE: &str = "kind format program notes database tracks condition conditions strength error_log2 because \
+                      rank_strength components_strength mode seed prime seconds joints joints_complete weak \
+                      suggestions explain export proof graph read model verdict solutions rank rank_required \
+                      components planar";
 
-impl TableProblem {
-    fn at(self, line: usize) -> TableError {
-        TableError {
-            line,
-            problem: self,
-        }
-    }
-}
-
-/// Whether a column is known; the names are in lower case.
-fn is_known(column: &str) -> bool {
-    matches!(
-        column,
-        "graph"
-            | "file"
-            | "name"
-            | "verdict"
-            | "components"
-            | "solutions"
-            | "rank"
-            | "model"
-            | "nodes"
-            | "edges"
-            | "sha256"
-            | "seconds"
-    ) || ["components_", "seconds_", "density_"]
-        .iter()
-        .any(|prefix| column.starts_with(prefix))
-}
-
-/// Reads a table (see the module): JSON if it begins with `[` or `{`, comma-separated values with a
-/// head otherwise (cells may stand in double quotes, which are doubled within). Columns named in
-/// `ignored` are left out.
+/// Reads a table. Columns named in `ignored` are left out.
 ///
 /// # Errors
 /// See [`TableError`].
 pub fn read_table(text: &str, ignored: &[String]) -> Result<Vec<Row>, TableError> {
-    let text = text.trim_start_matches('\u{feff}');
-    let ignored: Vec<String> = ignored.iter().map(|name| name.to_lowercase()).collect();
-    let rows = if text.trim_start().starts_with(['[', '{']) {
-        read_json(text, &ignored)?
-    } else {
-        read_csv(text, &ignored)?
-    };
-    if rows.is_empty() {
-        return Err(TableProblem::NoRows.at(1));
-    }
-    Ok(rows)
+    Columns::new(KNOWN, SILENT, ignored).read(text)
 }
 
-fn read_csv(text: &str, ignored: &[String]) -> Result<Vec<Row>, TableError> {
-    let lines = csv::lines(text).map_err(|quote| TableProblem::Quote.at(quote.line))?;
-    let mut lines = lines.into_iter();
-    let (number, head) = lines.next().ok_or(TableProblem::Empty.at(1))?;
-    let head: Vec<String> = head.iter().map(|cell| cell.trim().to_lowercase()).collect();
-    for (k, column) in head.iter().enumerate() {
-        if !is_known(column) && !ignored.contains(column) {
-            return Err(TableProblem::Column(column.clone()).at(number));
-        }
-        if head[..k].contains(column) {
-            return Err(TableProblem::Twice(column.clone()).at(number));
-        }
-    }
-    lines
-        .map(|(line, cells)| {
-            if cells.len() != head.len() {
-                let (expected, found) = (head.len(), cells.len());
-                return Err(TableProblem::Cells { expected, found }.at(line));
-            }
-            let cells = cells.iter().map(str::to_owned);
-            let cells = head.iter().cloned().zip(cells);
-            Ok(Row {
-                line,
-                cells: cells
-                    .filter(|(column, _)| !ignored.contains(column))
-                    .collect(),
-                sizes: None,
-            })
-        })
-        .collect()
+/// A claimed verdict.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Claimed {
+    /// The cameras are unique.
+    Solvable,
+    /// There are finitely many sets of cameras; at given cameras: these are determined.
+    FiniteSolvable,
+    /// There are infinitely many; at given cameras: these are not determined.
+    NotFiniteSolvable,
+    /// There is more than one.
+    NotSolvable,
 }
 
-/// The members of a JSON object in their order, repeated ones included.
-struct Members(Vec<(String, Json)>);
-
-impl<'de> Deserialize<'de> for Members {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Object;
-        impl<'de> Visitor<'de> for Object {
-            type Value = Members;
-
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("an object")
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Members, A::Error> {
-                let mut members = Vec::new();
-                while let Some(member) = map.next_entry()? {
-                    members.push(member);
-                }
-                Ok(Members(members))
-            }
-        }
-        deserializer.deserialize_map(Object)
-    }
-}
-
-fn read_json(text: &str, ignored: &[String]) -> Result<Vec<Row>, TableError> {
-    let is_list = text.trim_start().starts_with('[');
-    let objects: Result<Vec<Members>, serde_json::Error> = if is_list {
-        serde_json::from_str(text)
-    } else {
-        serde_json::Deserializer::from_str(text)
-            .into_iter()
-            .collect()
-    };
-    let objects =
-        objects.map_err(|error| TableProblem::Json(error.to_string()).at(error.line().max(1)))?;
-    let lines = lines_of_objects(text, usize::from(is_list));
-    objects
-        .into_iter()
-        .zip(lines)
-        .map(|(Members(members), line)| {
-            row(members, ignored, line).map_err(|problem| problem.at(line))
-        })
-        .collect()
-}
-
-/// The lines, from 1, on which the objects at a depth of nesting begin in a JSON text.
-fn lines_of_objects(text: &str, depth: usize) -> Vec<usize> {
-    let (mut line, mut open, mut quoted, mut escaped) = (1, 0usize, false, false);
-    let mut lines = Vec::new();
-    for byte in text.bytes() {
-        line += usize::from(byte == b'\n');
-        match byte {
-            _ if escaped => escaped = false,
-            b'\\' if quoted => escaped = true,
-            b'"' => quoted = !quoted,
-            _ if quoted => {}
-            b'{' | b'[' => {
-                if byte == b'{' && open == depth {
-                    lines.push(line);
-                }
-                open += 1;
-            }
-            b'}' | b']' => open = open.saturating_sub(1),
-            _ => {}
-        }
-    }
-    lines
-}
-
-/// The row of an object.
-fn row(members: Vec<(String, Json)>, ignored: &[String], line: usize) -> Result<Row, TableProblem> {
-    if members
-        .iter()
-        .any(|(name, value)| name == "graph" && value.is_object())
-    {
-        return reported(members, line);
-    }
-    let mut cells = BTreeMap::new();
-    for (name, value) in members {
-        let name = name.to_lowercase();
-        if ignored.contains(&name) {
-            continue;
-        }
-        if !is_known(&name) {
-            return Err(TableProblem::Column(name));
-        }
-        let cell = match value {
-            Json::Null => String::new(),
-            Json::String(text) => text,
-            Json::Array(_) | Json::Object(_) => return Err(TableProblem::Nested(name)),
-            other => other.to_string(),
-        };
-        if cells.insert(name.clone(), cell).is_some() {
-            return Err(TableProblem::Twice(name));
-        }
-    }
-    Ok(Row {
-        line,
-        cells,
-        sizes: None,
-    })
-}
-
-/// What `verify --json` writes about a graph, as far as it is a claim; how it was found (strengths,
-/// mode, time) is none.
-#[derive(Deserialize)]
-struct Reported {
-    graph: ReportedGraph,
-    model: String,
-    verdict: String,
-    /// Missing where an earlier version did not count.
-    #[serde(default)]
-    solutions: Option<ReportedSolutions>,
-    rank: usize,
-    rank_required: usize,
-    components: Vec<ReportedComponent>,
-}
-
-#[derive(Deserialize)]
-struct ReportedGraph {
-    name: String,
-    nodes: usize,
-    edges: usize,
-    sha256: String,
-}
-
-/// Bounds are how it was found; the number is a claim.
-#[derive(Deserialize)]
-struct ReportedSolutions {
-    exactly: Option<usize>,
-}
-
-#[derive(Deserialize)]
-struct ReportedComponent {
-    nodes: usize,
-    edges: usize,
-}
-
-/// The members of a line of `verify --json`; see `report::json`.
-const REPORTED: [&str; 34] = [
-    "graph",
-    "parts",
-    "read",
-    "notes",
-    "database",
-    "tracks",
-    "model",
-    "displacements",
-    "verdict",
-    "condition",
-    "strength",
-    "error_log2",
-    "solutions",
-    "rank",
-    "rank_required",
-    "rank_strength",
-    "kind",
-    "format",
-    "program",
-    "seed",
-    "prime",
-    "because",
-    "components",
-    "components_strength",
-    "conditions",
-    "planar",
-    "mode",
-    "seconds",
-    "joints",
-    "joints_complete",
-    "weak",
-    "suggestions",
-    "explain",
-    "export",
+/// The words for verdicts in all reports of the program.
+const WORDS: [(&str, Option<Claimed>); 7] = [
+    ("solvable", Some(Claimed::Solvable)),
+    ("finite-solvable", Some(Claimed::FiniteSolvable)),
+    ("not-finite-solvable", Some(Claimed::NotFiniteSolvable)),
+    ("not-solvable", Some(Claimed::NotSolvable)),
+    ("determined", Some(Claimed::FiniteSolvable)),
+    ("not-determined", Some(Claimed::NotFiniteSolvable)),
+    ("undecided", None),
 ];
 
-fn reported(members: Vec<(String, Json)>, line: usize) -> Result<Row, TableProblem> {
-    let mut object = serde_json::Map::new();
-    for (name, value) in members {
-        if !REPORTED.contains(&name.as_str()) {
-            return Err(TableProblem::Report(format!("unknown member {name:?}")));
-        }
-        if name == "displacements" {
-            let why = "it rests on known displacements, without which it is another claim";
-            return Err(TableProblem::Report(why.into()));
-        }
-        if object.insert(name.clone(), value).is_some() {
-            return Err(TableProblem::Twice(name));
+/// The model of a row.
+pub(crate) fn model(row: &Row) -> Result<Model, BadRow> {
+    let model = row.parsed("model", "one of projective, calibrated and affine")?;
+    Ok(model.unwrap_or(Model::Projective))
+}
+
+/// What a row claims of the verdict, in letters of either case, with blanks or underscores for the hyphens.
+pub(crate) fn verdict(row: &Row) -> Result<Option<Claimed>, BadRow> {
+    let Some(text) = row.cell("verdict") else {
+        return Ok(None);
+    };
+    let word = text.to_lowercase().replace([' ', '_'], "-");
+    let found = WORDS.iter().find(|(known, _)| *known == word);
+    let words = WORDS.map(|(word, _)| word).join(", ");
+    let found = found.ok_or_else(|| BadRow(format!("verdict: {text:?} is not one of {words}")));
+    Ok(found?.1)
+}
+
+/// What a row claims.
+#[derive(Clone, Debug, Default)]
+pub struct Claim {
+    /// The row, with the names of its graph and of the columns that are compared as they stand there.
+    row: Row,
+    /// The column that names the graph.
+    column: &'static str,
+    /// How the graph is read.
+    read: ReadOptions,
+    verdict: Option<Claimed>,
+    /// Of `components` and all columns that begin so.
+    components: Vec<usize>,
+    solutions: Option<Bounds>,
+    /// What a record says of each component, and of centres in one plane.
+    parts: Option<Vec<String>>,
+    planar: Option<Json>,
+    /// A member of a record that claims what is not decided again.
+    other: Option<String>,
+}
+
+/// How many solutions there are, at least and at most.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Bounds(Number, Option<Number>);
+
+impl Bounds {
+    /// `2`, `2-6` or `2-`.
+    fn of(text: &str) -> Result<Self, BadRow> {
+        let bad = |_| {
+            BadRow(format!(
+                "solutions: {text:?} is no number, like 2 or 2-6 or 2-"
+            ))
+        };
+        let number = |text: &str| text.parse::<usize>().map(Number::from).map_err(bad);
+        match text.split_once('-') {
+            None => Ok(Self(number(text)?, Some(number(text)?))),
+            Some((least, "")) => Ok(Self(number(least)?, None)),
+            Some((least, most)) => Ok(Self(number(least)?, Some(number(most)?))),
         }
     }
-    // What is decided again is the graph alone.
-    if object.contains_key("parts") {
-        let why = "the report is about a graph with known parts, which is not decided again here";
-        return Err(TableProblem::Report(why.to_owned()));
+}
+
+/// The claim of a row.
+///
+/// # Errors
+/// What it lacks.
+pub fn claim(row: &Row) -> Result<Claim, BadRow> {
+    let bad = |why: &str| BadRow(why.to_owned());
+    let mut claim = Claim::default();
+    claim.row = match &row.record {
+        Some(record) => claim.recorded(record)?,
+        None => row.clone(),
+    };
+    let row = &claim.row;
+    if let Some(error) = row.cell("error") {
+        return Err(BadRow(format!(
+            "nothing is claimed: the graph had no answer: {error}"
+        )));
     }
-    let found: Reported = serde_json::from_value(Json::Object(object))
-        .map_err(|error| TableProblem::Report(error.to_string()))?;
-    let exactly = found.solutions.and_then(|solutions| solutions.exactly);
-    let cells = [
-        (
-            "solutions",
-            exactly.map_or_else(String::new, |number| number.to_string()),
-        ),
-        ("graph", found.graph.name),
-        ("model", found.model),
-        ("verdict", found.verdict),
-        ("rank", found.rank.to_string()),
-        ("rank_required", found.rank_required.to_string()),
-        ("components", found.components.len().to_string()),
-        ("nodes", found.graph.nodes.to_string()),
-        ("edges", found.graph.edges.to_string()),
-        ("sha256", found.graph.sha256),
-    ];
-    let sizes = found.components.iter().map(|part| (part.nodes, part.edges));
-    Ok(Row {
-        line,
-        cells: cells.map(|(name, cell)| (name.to_owned(), cell)).into(),
-        sizes: Some(sizes.collect()),
-    })
+    let mut columns = ["graph", "graph6", "file", "name"].into_iter();
+    let named = columns.find(|column| row.cell(column).is_some());
+    let none = "no graph is named: one of the columns graph, graph6, file, name is needed";
+    claim.column = named.ok_or_else(|| bad(none))?;
+    model(row)?;
+    for column in row
+        .cells
+        .keys()
+        .filter(|column| column.starts_with("components"))
+    {
+        claim.components.extend(row.count(column)?);
+    }
+    for column in ["nodes", "edges", "rank", "rank_required"] {
+        row.count(column)?;
+    }
+    let unique = row.cell("unique_by_contraction") == Some("1");
+    claim.verdict = verdict(row)?.or(unique.then_some(Claimed::Solvable));
+    claim.solutions = row.cell("solutions").map(Bounds::of).transpose()?;
+    let is_nothing = claim.components.is_empty() && row.cell("rank").is_none();
+    match is_nothing && claim.verdict.is_none() && claim.solutions.is_none() {
+        true => Err(bad(
+            "nothing is claimed: one of the columns verdict, components, solutions, rank is needed",
+        )),
+        false => Ok(claim),
+    }
+}
+
+/// What stands in a JSON value, without quotes.
+fn plain(value: &Json) -> String {
+    value
+        .as_str()
+        .map_or_else(|| value.to_string(), str::to_owned)
+}
+
+/// A component as it is compared.
+fn part(nodes: impl ToString, edges: impl ToString, labels: Option<Vec<String>>) -> String {
+    let mut labels = labels.unwrap_or_default();
+    labels.sort_unstable();
+    json!([nodes.to_string(), edges.to_string(), labels]).to_string()
+}
+
+impl Claim {
+    /// Takes what `verify --json` wrote about a graph for a row.
+    fn recorded(&mut self, record: &Json) -> Result<Row, BadRow> {
+        let bad = |why: &str| {
+            BadRow(format!(
+                "not a record as `verify --json` writes it of a graph: {why}"
+            ))
+        };
+        if let Some(error) = record.get("error") {
+            return Err(bad(&format!("the graph had no answer: {error}")));
+        }
+        for (member, wanted) in [("kind", json!("report")), ("format", json!(1))] {
+            if let Some(other) = record.get(member).filter(|found| **found != wanted) {
+                return Err(bad(&format!("its {member} is {other}, not {wanted}")));
+            }
+        }
+        for (member, what) in [
+            ("displacements", "rests on known displacements"),
+            ("parts", "is about a graph with known parts"),
+        ] {
+            if record.get(member).is_some() {
+                let why = format!("it {what}, without which it is another claim");
+                return Err(BadRow(why));
+            }
+        }
+        let at = |pointer: &str| {
+            let found = record.pointer(pointer);
+            found.ok_or_else(|| bad(&format!("there is no {pointer}")))
+        };
+        let mut row = Row::default();
+        for pointer in [
+            "/graph/name",
+            "/graph/nodes",
+            "/graph/edges",
+            "/graph/sha256",
+            "/model",
+            "/verdict",
+            "/rank",
+            "/rank_required",
+        ] {
+            let column = pointer.rsplit('/').next().unwrap_or_default();
+            let column = if column == "name" { "graph" } else { column };
+            row.cells.insert(column.to_owned(), plain(at(pointer)?));
+        }
+        if let Some(known) = record.get("solutions").filter(|known| !known.is_null()) {
+            let [least, most] =
+                ["at_least", "at_most"].map(|of| known.get(of).map_or_else(String::new, plain));
+            row.cells.insert(
+                "solutions".to_owned(),
+                format!("{least}-{}", most.replace("null", "")),
+            );
+        }
+        let mut parts = Vec::new();
+        for found in at("/components")?.as_array().into_iter().flatten() {
+            let labels = found.get("labels").and_then(Json::as_array);
+            let labels = labels.map(|labels| labels.iter().map(plain).collect());
+            parts.push(part(&found["nodes"], &found["edges"], labels));
+            if found.get("solutions").is_some() {
+                self.other = Some("components[].solutions".to_owned());
+            }
+        }
+        row.cells
+            .insert("components".to_owned(), parts.len().to_string());
+        self.parts = Some(parts);
+        let given = record
+            .pointer("/read/options")
+            .and_then(Json::as_object)
+            .into_iter()
+            .flatten();
+        let given: BTreeMap<_, _> = given
+            .map(|(name, value)| (name.clone(), plain(value)))
+            .collect();
+        let read = ReadOptions::of_given(&given);
+        self.read = read.map_err(|name| bad(&format!("unknown option {name:?} in `read`")))?;
+        self.planar = record.get("planar").cloned();
+        let mut members = record
+            .as_object()
+            .into_iter()
+            .flat_map(|members| members.keys());
+        let other = members.find(|name| BESIDE.split_whitespace().all(|beside| beside != *name));
+        self.other = self.other.take().or(other.cloned());
+        Ok(row)
+    }
+
+    /// The model it is about.
+    pub fn model(&self) -> Model {
+        model(&self.row).unwrap_or(Model::Projective)
+    }
+
+    /// How the graph is called, if that may be a name of the caller's, and whether it can be nothing else.
+    pub fn called(&self) -> Option<(&str, bool)> {
+        let is_name = matches!(self.column, "file" | "name");
+        Some((self.row.cell(self.column)?, is_name)).filter(|_| self.column != "graph6")
+    }
+
+    /// Reads the graph that it names: a file of the folder, with or without what follows the dot, a path, a path with
+    /// the number of a line, or a line of graph6. `refuse` is asked before a file is read, and says why not.
+    ///
+    /// # Errors
+    /// Why there is none.
+    pub fn graph(
+        &self,
+        folder: Option<&Path>,
+        refuse: &dyn Fn(&Path) -> Option<String>,
+    ) -> Result<NamedGraph, BadRow> {
+        let text = self.row.cell(self.column).unwrap_or_default();
+        let unknown = |why: &str| BadRow(format!("unknown graph {text}: {why}"));
+        let read = |path: &Path| match refuse(path) {
+            Some(why) => Err(BadRow(why)),
+            None => Ok(read_graphs(path, &self.read)),
+        };
+        let is_graph6 = graph6::is_graph6(text.as_bytes());
+        let as_graph6 = || {
+            let line = Cursor::new(format!("{text}\n").into_bytes());
+            only(text, graphs(text.to_owned(), line, ReadOptions::default()))
+        };
+        if self.column == "graph6" {
+            return as_graph6();
+        }
+        if text == "-" || text.starts_with("-:") {
+            let why = "it was read from standard input, and is not there any more; name its file";
+            return Err(unknown(why));
+        }
+        for base in folder.into_iter().chain([Path::new("")]) {
+            let path = base.join(text);
+            if path.exists() {
+                return only(text, read(&path)?);
+            }
+            if let Some((file, line)) = text.rsplit_once(':')
+                && line.parse::<u64>().is_ok()
+                && base.join(file).is_file()
+            {
+                // Of what stands on other lines, nothing matters here.
+                let (name, file) = (path.display().to_string(), base.join(file));
+                let found = read(&file)?
+                    .filter_map(Result::ok)
+                    .find(|graph| graph.name == name);
+                return found.ok_or_else(|| unknown("no graph on that line"));
+            }
+        }
+        match folder.map(|folder| (folder, by_stem(folder, text))) {
+            Some((_, found)) if !found.is_empty() => match &found[..] {
+                [path] => only(text, read(path)?),
+                all => Err(unknown(&format!("it may be any of {all:?}"))),
+            },
+            _ if self.column == "graph" && is_graph6 => as_graph6(),
+            Some((folder, _)) => Err(unknown(&format!("no such file in {}", folder.display()))),
+            None => Err(unknown("no such file; --graphs DIR says where files are")),
+        }
+    }
+}
+
+/// The only graph of an input.
+fn only(name: &str, mut graphs: Graphs) -> Result<NamedGraph, BadRow> {
+    let first = graphs
+        .next()
+        .ok_or_else(|| BadRow(format!("{name}: no graph")))?;
+    let first = first.map_err(|error| BadRow(format!("unknown graph {name}: {error}")))?;
+    match graphs.next() {
+        None => Ok(first),
+        Some(_) => Err(BadRow(format!(
+            "{name}: several graphs, and a claim is about one"
+        ))),
+    }
+}
+
+/// The files of a folder that have this name before the dot.
+fn by_stem(folder: &Path, name: &str) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten();
+    let files = entries.filter_map(|entry| Some(entry.ok()?.path()));
+    let mut files: Vec<PathBuf> = files
+        .filter(|file| file.file_stem().is_some_and(|stem| stem == name))
+        .collect();
+    files.sort_unstable();
+    files
+}
+
+/// What the exact decision says about a claim.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Ruling {
+    /// All that was claimed is so.
+    Confirmed,
+    /// Something is not; what.
+    Refuted(String),
+    /// Something is neither confirmed nor refuted; why.
+    NotDecidable(String),
+}
+
+impl Ruling {
+    /// By what is wrong and what is open.
+    pub(crate) fn new(wrong: &[String], open: Option<String>) -> Self {
+        match open {
+            _ if !wrong.is_empty() => Self::Refuted(wrong.join("; ")),
+            Some(why) => Self::NotDecidable(why),
+            None => Self::Confirmed,
+        }
+    }
+
+    /// Its name in JSON, and what speaks against the claim; nothing if it is confirmed.
+    pub fn said(&self) -> (&'static str, &str) {
+        match self {
+            Self::Confirmed => ("confirmed", ""),
+            Self::Refuted(why) => ("refuted", why),
+            Self::NotDecidable(why) => ("not decidable", why),
+        }
+    }
+}
+
+/// Decides the graph of a claim in its model, and rules. Solutions are counted whatever it takes where the claim hangs on
+/// their number.
+///
+/// # Errors
+/// No verdict.
+pub fn ruled(
+    claim: &Claim,
+    input: &NamedGraph,
+    options: &Options,
+) -> Result<(Ruling, Verdict), VerdictError> {
+    let options = options.clone().model(claim.model());
+    let (watch, mut verdict) = (options.watch.clone(), decide(&input.graph, &options)?);
+    if let Some(why) = claim.another_graph(input, &verdict) {
+        let why = format!("another graph is meant: {why}");
+        return Ok((Ruling::NotDecidable(why), verdict));
+    }
+    if claim.value(&verdict).is_none() || claim.number(&verdict).is_none() {
+        let all = Projective::with_solutions(CountSolutions::Full);
+        verdict = decide(&input.graph, &options.question(all))?;
+    }
+    let in_a_plane = claim
+        .planar
+        .is_some()
+        .then(|| planar(&input.graph, claim.model(), &watch));
+    let in_a_plane = in_a_plane.transpose()?;
+    Ok((claim.rule(input, &verdict, in_a_plane), verdict))
+}
+
+/// What holds if all centres lie in one plane, by counting (docs/theory, Corollary 13.4 and Theorem 13.23).
+fn planar(graph: &Graph, model: Model, watch: &Watch) -> Result<Json, Stopped> {
+    let (plane, mut sets) = (plane_rank(graph, watch)?, UnionFind::new(graph.nodes()));
+    let edges = graph.edges().iter();
+    let joined = edges
+        .filter(|&&(i, j)| sets.union(i as usize, j as usize))
+        .count();
+    let rank = match model {
+        Model::Projective => 4 * plane + 3 * joined,
+        Model::Calibrated => plane + joined,
+        Model::Affine => 4 * plane,
+    };
+    let required = model.required(graph.nodes());
+    let verdict = if rank < required {
+        "not-finite-solvable"
+    } else {
+        "solvable"
+    };
+    Ok(json!({ "verdict": verdict, "rank": rank, "rank_required": required }))
+}
+
+impl Claim {
+    /// Why the graph that was decided is not the one that the claim is about.
+    fn another_graph(&self, input: &NamedGraph, verdict: &Verdict) -> Option<String> {
+        let (nodes, edges) = (input.graph.nodes(), input.graph.edges().len());
+        let found = [
+            ("nodes", nodes.to_string()),
+            ("edges", edges.to_string()),
+            ("sha256", hex(&verdict.sha256)),
+        ];
+        found.into_iter().find_map(|(column, found)| {
+            let claimed = self
+                .row
+                .cell(column)
+                .filter(|claimed| claimed.to_lowercase() != found)?;
+            Some(format!("the row has {column} {claimed}, the graph {found}"))
+        })
+    }
+
+    /// Whether the claimed verdict is right; nothing if it says more than is decided.
+    fn value(&self, found: &Verdict) -> Option<bool> {
+        use Claimed as C;
+        let several = found
+            .solutions
+            .as_ref()
+            .is_some_and(|count| count.at_least > 1);
+        let Some(claimed) = self.verdict else {
+            return Some(true);
+        };
+        Some(match claimed {
+            C::Solvable | C::NotSolvable if found.value == Value::FiniteSolvable && !several => {
+                return None;
+            }
+            C::Solvable => found.value == Value::Solvable,
+            C::NotSolvable => found.value != Value::Solvable,
+            C::FiniteSolvable => found.value != Value::NotFiniteSolvable,
+            C::NotFiniteSolvable => found.value == Value::NotFiniteSolvable,
+        })
+    }
+
+    /// The same of the number of solutions.
+    fn number(&self, found: &Verdict) -> Option<bool> {
+        let (Some(Bounds(least, most)), Some(known)) = (&self.solutions, &found.solutions) else {
+            return Some(self.solutions.is_none());
+        };
+        let is_above = |a: &Number, b: &Option<Number>| b.as_ref().is_some_and(|b| a > b);
+        if is_above(least, &known.at_most) || is_above(&known.at_least, most) {
+            return Some(false);
+        }
+        let is_inside = most.is_none()
+            || known
+                .at_most
+                .as_ref()
+                .is_some_and(|known| !is_above(known, most));
+        (known.at_least >= *least && is_inside).then_some(true)
+    }
+
+    /// Whether the components are as a record says, with their members if it lists them.
+    fn has_parts(&self, input: &NamedGraph, verdict: &Verdict) -> bool {
+        let Some(claimed) = &self.parts else {
+            return true;
+        };
+        let cameras = input.cameras.unwrap_or(u32::MAX);
+        let found = |is_listed: bool| {
+            let parts = verdict.components.iter().map(|found| {
+                let nodes = found.nodes().into_iter().filter(|&v| v < cameras);
+                let labels =
+                    is_listed.then(|| nodes.map(|v| input.labels.label(v).into_owned()).collect());
+                part(found.node_count(), found.edge_count(), labels)
+            });
+            let mut parts: Vec<String> = parts.collect();
+            parts.sort_unstable();
+            parts
+        };
+        let mut claimed = claimed.clone();
+        claimed.sort_unstable();
+        [false, true]
+            .into_iter()
+            .any(|is_listed| claimed == found(is_listed))
+    }
+
+    /// Holds it against the exact verdict, which is that of its model.
+    fn rule(&self, input: &NamedGraph, verdict: &Verdict, in_a_plane: Option<Json>) -> Ruling {
+        let (mut wrong, mut open) = (Vec::new(), None);
+        let (found, known) = (verdict.value.name(), verdict.solutions.as_ref());
+        if let Some(other) = &self.other {
+            open = Some(format!(
+                "the record has the member `{other}`, an unknown member here, which is not decided again"
+            ));
+        }
+        let count = known.map_or_else(
+            || "infinitely many solutions".to_owned(),
+            ToString::to_string,
+        );
+        let with = if known.is_some_and(|known| known.at_least > 1) {
+            format!(" with {count}")
+        } else {
+            String::new()
+        };
+        for (right, column, what, found) in [
+            (self.value(verdict), "verdict", "", format!("{found}{with}")),
+            (
+                self.number(verdict),
+                "solutions",
+                "solutions ",
+                count.clone(),
+            ),
+        ] {
+            match right {
+                Some(true) => {}
+                Some(false) => {
+                    let claimed = self.row.cell(column).unwrap_or("solvable");
+                    wrong.push(format!("claimed {what}{claimed}, is {found}"));
+                }
+                None => {
+                    open = Some(format!(
+                        "finite solvable, and it is not decided how many solutions there are: {count}"
+                    ))
+                }
+            }
+        }
+        let components = self
+            .components
+            .iter()
+            .map(|&count| ("components", Some(count), verdict.components.len()));
+        let count = |column: &'static str| self.row.count(column).ok().flatten();
+        let ranks = [("rank", verdict.rank), ("rank_required", verdict.required)];
+        for (what, claimed, found) in
+            components.chain(ranks.map(|(what, is)| (what, count(what), is)))
+        {
+            if let Some(claimed) = claimed.filter(|&claimed| claimed != found) {
+                wrong.push(format!("claimed {what} {claimed}, is {found}"));
+            }
+        }
+        if !self.has_parts(input, verdict) {
+            wrong.push("the components have other sizes or members".to_owned());
+        }
+        if self.planar != in_a_plane {
+            let is = in_a_plane.unwrap_or_default();
+            wrong.push(format!(
+                "in a plane it is {}, rank {}",
+                plain(&is["verdict"]),
+                is["rank"]
+            ));
+        }
+        Ruling::new(&wrong, open)
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use viewcert::graph::Labels;
 
-    #[test]
-    fn tables() {
-        let csv = "Name,Components,seconds_mine\n\"Tower, \"\"London\"\"\",4,x\r\n\nRome,1,\n";
-        let rows = read_table(csv, &[]).unwrap();
-        assert_eq!(rows.len(), 2);
-        assert_eq!(rows[0].cells["name"], "Tower, \"London\"");
-        assert_eq!((rows[0].line, rows[1].line), (2, 4));
-        assert_eq!(rows[1].cells["components"], "1");
-        let windows = "name,rank\r\n \r\na,1\r\nb,\"2\"\r\n";
-        let rows = read_table(windows, &[]).unwrap();
-        assert_eq!((rows[0].line, rows[1].line), (3, 4));
-        let ranks = [&rows[0].cells["rank"], &rows[1].cells["rank"]];
-        assert_eq!(ranks, ["1", "2"]);
-        let json = "[\n{\"Graph\": \"C~{\\\"\", \"components\": 1,\n \"rank\": null},\n{}]";
-        let rows = read_table(json, &[]).unwrap();
-        assert_eq!(rows[0].cells["graph"], "C~{\"");
-        assert_eq!(rows[0].cells["components"], "1");
-        assert_eq!(rows[0].cells["rank"], "");
-        assert_eq!((rows[0].line, rows[1].line), (2, 4));
-        let lines = "{\"graph\": \"C~\"}\n\n{\"graph\": \"Cl\"} {\"rank\": 3}\n";
-        let rows = read_table(lines, &[]).unwrap();
-        let found: Vec<usize> = rows.iter().map(|row| row.line).collect();
-        assert_eq!(found, [1, 3, 3]);
-        let ignored = ["Note".to_owned()];
-        let rows = read_table("name,note\na,b\n", &ignored).unwrap();
-        assert_eq!(rows[0].cells.len(), 1);
+    fn row(cells: &[(&str, &str)]) -> Row {
+        let owned = |(a, b): &(&str, &str)| ((*a).to_owned(), (*b).to_owned());
+        Row {
+            cells: cells.iter().map(owned).collect(),
+            ..Row::default()
+        }
+    }
+
+    fn ruling(graph6: &str, cells: &[(&str, &str)]) -> Ruling {
+        let graph = graph6::decode(graph6.as_bytes()).unwrap();
+        let labels = Labels::Numbers { first: 0 };
+        let input = NamedGraph::new(graph6, graph, labels);
+        let claim = claim(&row(&[&[("graph", graph6)], cells].concat())).unwrap();
+        ruled(&claim, &input, &Options::default()).unwrap().0
     }
 
     #[test]
-    fn tables_that_are_none() {
-        use TableProblem as P;
-        let problem = |text: &str| {
-            let error = read_table(text, &[]).unwrap_err();
-            (error.line, error.problem)
-        };
-        let cells = |expected, found| P::Cells { expected, found };
-        assert_eq!(problem("name,rank\n1,2\n3\n"), (3, cells(2, 1)));
-        assert_eq!(problem("name,rank\n\n1,2,3\n"), (3, cells(2, 3)));
-        for open in [
-            "\"1,2\n",
-            "\"1,2",
-            "1,\"2\n3,4\n",
-            "1,\"2\n3\"\n",
-            "\r\n1,\"2\r\n",
+    fn claims_that_are_none() {
+        let error = |cells: &[(&str, &str)]| claim(&row(cells)).unwrap_err().0;
+        let with = |cells: &[(&str, &str)]| error(&[&[("graph", "C~")], cells].concat());
+        assert!(error(&[("rank", "3")]).contains("no graph"));
+        assert!(with(&[]).contains("nothing is claimed"));
+        assert!(with(&[("verdict", "undecided")]).contains("nothing is claimed"));
+        assert!(with(&[("rank", "-1")]).contains("not a number"));
+        assert!(with(&[("verdict", "maybe")]).contains("\"maybe\""));
+        assert!(with(&[("solutions", "few")]).contains("no number"));
+        assert!(with(&[("rank", "29"), ("error", "no such file")]).contains("no such file"));
+    }
+
+    /// Published: one solution with eight nodes, two with these nine.
+    #[test]
+    fn rulings_on_the_number_of_solutions() {
+        let [one, two] = ["G@TclO", "HBQkcP_"];
+        for (graph, column, claimed, wanted) in [
+            (one, "verdict", "solvable", ""),
+            (
+                one,
+                "verdict",
+                "not-solvable",
+                "claimed not-solvable, is solvable",
+            ),
+            (one, "unique_by_contraction", "1", ""),
+            (one, "solutions", "1", ""),
+            (
+                one,
+                "solutions",
+                "2",
+                "claimed solutions 2, is exactly 1 solution",
+            ),
+            (two, "verdict", "not-solvable", ""),
+            (two, "verdict", "finite-solvable", ""),
+            (
+                two,
+                "verdict",
+                "solvable",
+                "claimed solvable, is finite-solvable with exactly 2 solutions",
+            ),
+            (two, "solutions", "2", ""),
+            (two, "solutions", "1-2", ""),
+            (two, "solutions", "2-", ""),
+            (
+                two,
+                "solutions",
+                "3-",
+                "claimed solutions 3-, is exactly 2 solutions",
+            ),
+            (
+                two,
+                "solutions",
+                "1",
+                "claimed solutions 1, is exactly 2 solutions",
+            ),
+            (
+                "Cl",
+                "solutions",
+                "1",
+                "claimed solutions 1, is infinitely many solutions",
+            ),
         ] {
-            let line = 2 + usize::from(open.starts_with('\r'));
+            let found = ruling(graph, &[(column, claimed)]);
+            assert_eq!(found.said().1, wanted, "{graph} {column} {claimed}");
             assert_eq!(
-                problem(&format!("name,rank\n{open}")),
-                (line, P::Quote),
-                "{open:?}"
+                found == Ruling::Confirmed,
+                wanted.is_empty(),
+                "{graph} {column}"
             );
         }
-        assert_eq!(problem("\n"), (1, P::Empty));
-        for none in ["name,rank\n", "[]", "[ ]\n"] {
-            assert_eq!(problem(none), (1, P::NoRows), "{none}");
+    }
+
+    /// A triangle and a 4-cycle, by hand.
+    #[test]
+    fn rulings() {
+        let [triangle, square] = ["Bw", "Cl"];
+        for (verdict, of_triangle, of_square) in [
+            ("solvable", true, false),
+            ("finite-solvable", true, false),
+            ("not-finite-solvable", false, true),
+            ("not-solvable", false, true),
+        ] {
+            let confirmed = |graph| ruling(graph, &[("verdict", verdict)]) == Ruling::Confirmed;
+            assert_eq!(confirmed(triangle), of_triangle, "{verdict}");
+            assert_eq!(confirmed(square), of_square, "{verdict}");
         }
-        let column = |name: &str| P::Column(name.into());
-        assert_eq!(problem("name,component\na,1\n"), (1, column("component")));
-        assert_eq!(problem("[{},\n{\"vedict\": 1}]"), (2, column("vedict")));
-        assert_eq!(problem("name,Name\na,b\n"), (1, P::Twice("name".into())));
-        let twice = "{\"rank\": 1, \"RANK\": 2}";
-        assert_eq!(problem(twice), (1, P::Twice("rank".into())));
-        for nested in ["[1]", "{}"] {
-            let text = format!("{{\"graph\": \"C~\"}}\n{{\"rank\": {nested}}}");
-            assert_eq!(problem(&text), (2, P::Nested("rank".into())));
-        }
-        for bad in ["[1, 2]", "[{}", "{\"rank\": 1} x"] {
-            assert!(matches!(problem(bad), (1, P::Json(_))), "{bad}");
-        }
-        let report = "{\"graph\": {\"name\": \"a\"}}";
-        assert!(matches!(problem(report), (1, P::Report(_))));
+        let right = ruling(square, &[("components", "4"), ("rank", "28")]);
+        assert_eq!(right, Ruling::Confirmed);
+        let wrong = ruling(square, &[("components", "1"), ("rank", "29")]);
+        let expected = "claimed components 1, is 4; claimed rank 29, is 28";
+        assert_eq!(wrong, Ruling::Refuted(expected.to_owned()));
+        let other = ruling(square, &[("components", "4"), ("nodes", "5")]);
+        assert!(matches!(other, Ruling::NotDecidable(_)));
     }
 }

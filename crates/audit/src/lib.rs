@@ -1,67 +1,46 @@
 //! Internal to viewcert, and may change at any time.
 //!
-//! The verdict in floating point, as the paper computes it, to be held against the exact
-//! one.
+//! The verdict in floating point, as the paper computes it, to be held against the exact one.
 //!
-//! Cameras have entries uniform in [0, 1) and Frobenius norm 10, fundamental matrices
-//! Frobenius norm 10, as in the authors' published code; the matrix is the augmented
-//! Jacobian J of the paper's section 4.1, 10m + n + 15 rows and 12n columns, the frame on
-//! a camera of highest degree and its neighbour of highest degree. (The published code
-//! adds n - 1 auxiliary unknowns for the rank of the cameras, and halves the rows of the
-//! diagonal of S + S^T; the paper's J has neither.) G is called finite solvable if the
-//! smallest eigenvalue of J^T J is above a tolerance.
+//! Cameras have entries uniform in [0, 1) and Frobenius norm 10, fundamental matrices Frobenius norm 10, as in the
+//! authors' published code; the matrix is the augmented Jacobian J of the paper's section 4.1, 10m + n + 15 rows and 12n
+//! columns, the frame on a camera of highest degree and its neighbour of highest degree. (The published code adds n - 1
+//! auxiliary unknowns for the rank of the cameras, and halves the rows of the diagonal of S + S^T; the paper's J has
+//! neither.) G is called finite solvable if the smallest eigenvalue of J^T J is above a tolerance.
 //!
-//! [`claims`] of others are decided again, and results [`at_cameras`] that somebody brings, with an [`enclosure`] of
-//! the singular value. No float is in any verdict or certificate.
+//! [`claims`] of others are decided again, and results [`at_cameras`] that somebody brings, with an [`enclosure`] of the
+//! singular value. No float is in any verdict or certificate.
 
 pub mod at_cameras;
-pub mod beside;
-pub mod cameras;
 pub mod claims;
-pub mod components;
-pub mod dense;
-pub mod doubles;
 pub mod enclosure;
-pub mod jacobian;
-pub mod sparse;
+pub mod linear;
+pub mod table;
 
-use jacobian::{Blocks, Jacobian};
-use std::fmt;
-use std::str::FromStr;
-use viewcert::geometry::draw::DrawError;
-use viewcert::geometry::jacobian::{augmented_size, reference};
-use viewcert::graph::Graph;
+use linear::{Doubles, Inverse, envelope_order};
+use rayon::prelude::*;
+use std::time::{Duration, Instant};
+use viewcert::decide::{Value, Verdict};
+use viewcert::geometry::camera::Camera;
+use viewcert::geometry::draw::DrawKey;
+use viewcert::geometry::jacobian::{self, SparseRows, reference};
+use viewcert::graph::{Graph, sha256};
+use viewcert::linalg::prime::PrimeField;
 
 /// The tolerance of the published code, on the smallest eigenvalue of J^T J.
 pub const TOLERANCE: f64 = 1e-10;
 
-/// How singular values are computed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Method {
-    /// Dense up to [`DENSE_BY_DEFAULT`] entries, sparse above.
-    Auto,
-    /// All singular values of J as a dense matrix.
-    Dense,
-    /// All eigenvalues of J^T J, formed as a dense matrix: what the published code hands to
-    /// its eigenvalue solver. Rounding in J^T J hides eigenvalues below eps |J|^2.
-    Gram,
-    /// The smallest ones, by inverse iteration with a sparse Cholesky factor of J^T J.
-    Sparse,
-}
+/// The Frobenius norm of cameras and of fundamental matrices.
+const NORM: f64 = 10.0;
 
-/// Entries of J up to which the dense method is the default: a second.
-pub const DENSE_BY_DEFAULT: usize = 1 << 20;
-
-/// Largest J of the dense method, in entries of 8 bytes: 1 GiB.
-pub const MAX_DENSE: usize = 1 << 27;
+/// The bound on a camera's part of the null space, as in the published code.
+const VANISHES: f64 = 1e-4;
 
 /// What to compute.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
     /// Bound on the smallest eigenvalue of J^T J above which G counts as finite solvable.
     pub tolerance: f64,
-    /// How.
-    pub method: Method,
     /// The seed of the cameras.
     pub seed: u64,
 }
@@ -80,16 +59,14 @@ pub enum FloatVerdict {
 impl FloatVerdict {
     /// The verdict by the smallest eigenvalue.
     pub fn by_tolerance(eigenvalue: f64, tolerance: f64) -> Self {
-        if !eigenvalue.is_finite() {
-            Self::Undecided
-        } else if eigenvalue > tolerance {
-            Self::Solvable
-        } else {
-            Self::NotSolvable
+        match eigenvalue.is_finite() {
+            false => Self::Undecided,
+            true if eigenvalue > tolerance => Self::Solvable,
+            true => Self::NotSolvable,
         }
     }
 
-    /// The name in JSON output.
+    /// The name in reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Solvable => "finite-solvable",
@@ -99,63 +76,24 @@ impl FloatVerdict {
     }
 }
 
-impl fmt::Display for FloatVerdict {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            Self::Solvable => "finite solvable",
-            Self::NotSolvable => "not finite solvable",
-            Self::Undecided => "undecided",
-        })
-    }
-}
-
 /// The outcome at one draw of cameras.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
     /// By the tolerance on the smallest eigenvalue.
     pub verdict: FloatVerdict,
-    /// The smallest eigenvalue of J^T J: the square of a singular value of J, or computed
-    /// from J^T J itself, and then possibly negative by rounding.
-    pub eigenvalue: f64,
-    /// The rank as MATLAB's `rank` takes it: singular values above
-    /// max(rows, columns) eps(sigma_1). Dense method only.
-    pub matlab_rank: Option<usize>,
-    /// 12n.
-    pub columns: usize,
-    /// The method that was used, which is not `Auto`.
-    pub method: Method,
+    /// The smallest singular value of J.
+    pub smallest: f64,
 }
 
 impl Outcome {
-    /// The smallest singular value of J, zero for a negative eigenvalue.
-    pub fn smallest(&self) -> f64 {
-        if self.eigenvalue < 0.0 {
-            0.0
-        } else {
-            self.eigenvalue.sqrt()
-        }
+    /// The smallest eigenvalue of J^T J.
+    pub fn eigenvalue(&self) -> f64 {
+        self.smallest * self.smallest
     }
 
-    /// By how many decades the eigenvalue lies above (below: negative) the tolerance; minus
-    /// infinity for zero and below.
+    /// By how many decades the eigenvalue lies above (below: negative) the tolerance.
     pub fn margin(&self, tolerance: f64) -> f64 {
-        if self.eigenvalue <= 0.0 {
-            f64::NEG_INFINITY
-        } else {
-            (self.eigenvalue / tolerance).log10()
-        }
-    }
-
-    /// The verdict by MATLAB's rank; `None` where it was not computed.
-    pub fn by_rank(&self) -> Option<FloatVerdict> {
-        let rank = self.matlab_rank?;
-        Some(if !self.eigenvalue.is_finite() {
-            FloatVerdict::Undecided
-        } else if rank == self.columns {
-            FloatVerdict::Solvable
-        } else {
-            FloatVerdict::NotSolvable
-        })
+        (self.eigenvalue() / tolerance).log10()
     }
 }
 
@@ -165,79 +103,72 @@ pub enum AuditError {
     /// The graph has no pairs, and so no frame.
     #[error("the graph has no pairs, and J no frame to fix")]
     NoPairs,
-    /// J is too large for the dense method.
-    #[error(
-        "the dense method would need {rows} x {columns} doubles for J alone, {gib} GiB; use --method sparse"
-    )]
-    TooLarge {
-        /// Rows of J.
-        rows: usize,
-        /// Columns of J.
-        columns: usize,
-        /// Memory.
-        gib: usize,
-    },
-    /// The dense singular values did not converge.
+    /// The singular values did not converge.
     #[error("the singular values did not converge, or are not numbers")]
     NoConvergence,
     /// No shift made J^T J positive definite.
-    #[error("the sparse Cholesky factor of J^T J failed at every shift")]
+    #[error("the Cholesky factor of J^T J failed at every shift")]
     NoFactor,
-    /// No cameras can be drawn for the published method without rounding.
-    #[error(transparent)]
-    Draw(#[from] DrawError),
 }
 
-impl fmt::Display for Method {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
-    }
+/// Numbers uniform in [0, 1), with 53 random bits each.
+pub fn uniform(graph: &Graph, seed: u64, draw: u64, count: usize) -> Vec<f64> {
+    let field = PrimeField::mersenne61();
+    let key = DrawKey {
+        graph_sha256: sha256(graph),
+        core_sha256: None,
+        seed,
+        draw,
+    };
+    let mut residue = key.residues(&field);
+    let mut entry = || (field.to_u64(residue()) >> 8) as f64 / (1u64 << 53) as f64;
+    (0..count).map(|_| entry()).collect()
 }
 
-/// A word that is not the name of a method.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the methods are auto, dense, gram and sparse")]
-pub struct UnknownMethod;
-
-impl FromStr for Method {
-    type Err = UnknownMethod;
-
-    fn from_str(name: &str) -> Result<Self, UnknownMethod> {
-        let named = |method: &Self| method.name() == name;
-        Self::ALL.into_iter().find(named).ok_or(UnknownMethod)
-    }
+/// What a matrix is multiplied by to have Frobenius norm [`NORM`].
+fn scale<const R: usize, const C: usize>(matrix: &[[f64; C]; R]) -> f64 {
+    NORM / matrix.iter().flatten().map(|x| x * x).sum::<f64>().sqrt()
 }
 
-impl Method {
-    /// All methods.
-    pub const ALL: [Self; 4] = [Self::Auto, Self::Dense, Self::Gram, Self::Sparse];
-
-    /// The name in reports and on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Auto => "auto",
-            Self::Dense => "dense",
-            Self::Gram => "gram",
-            Self::Sparse => "sparse",
-        }
+/// J_P at cameras that are scaled, with fundamental matrices that are. O(m).
+fn plain(graph: &Graph, mut cameras: Vec<Camera<f64>>) -> SparseRows<f64> {
+    for camera in &mut cameras {
+        let factor = scale(camera);
+        camera.iter_mut().flatten().for_each(|x| *x *= factor);
     }
+    let mut rows = jacobian::jacobian(&Doubles, graph, &cameras);
+    let blocks = rows.chunks_exact_mut(jacobian::VECH.len());
+    for (block, &(i, j)) in blocks.zip(graph.edges()) {
+        let [p_i, p_j] = [i, j].map(|v| &cameras[v as usize]);
+        let factor = scale(&jacobian::fundamental(&Doubles, p_i, p_j));
+        block.iter_mut().flatten().for_each(|(_, x)| *x *= factor);
+    }
+    rows
+}
 
-    /// The method to use for a matrix of this size, which is not `Auto`.
-    ///
-    /// # Errors
-    /// The matrix is too large for a dense method, which was asked for.
-    fn choose(self, (rows, columns): (usize, usize)) -> Result<Self, AuditError> {
-        let entries = rows.saturating_mul(columns);
-        match self {
-            Self::Auto if entries <= DENSE_BY_DEFAULT => Ok(Self::Dense),
-            Self::Auto | Self::Sparse => Ok(Self::Sparse),
-            Self::Dense | Self::Gram if entries <= MAX_DENSE => Ok(self),
-            Self::Dense | Self::Gram => Err(AuditError::TooLarge {
-                rows,
-                columns,
-                gib: entries.div_ceil(1 << 27),
-            }),
-        }
+/// J_P at drawn cameras, whose entries are uniform in [0, 1) before they are scaled. Cameras of rank below 3 and
+/// coincident centres do not occur in practice; they would show as a singular J.
+fn drawn(graph: &Graph, seed: u64, draw: u64) -> SparseRows<f64> {
+    let entries = uniform(graph, seed, draw, 12 * graph.nodes());
+    let camera =
+        |entries: &[f64]| std::array::from_fn(|r| std::array::from_fn(|c| entries[4 * r + c]));
+    plain(graph, entries.chunks_exact(12).map(camera).collect())
+}
+
+/// J at drawn cameras.
+///
+/// # Panics
+/// If the graph has no pair.
+pub fn augmented(graph: &Graph, seed: u64, draw: u64) -> SparseRows<f64> {
+    let mut rows = drawn(graph, seed, draw);
+    rows.extend(jacobian::gauge(&Doubles, graph, reference(graph)));
+    rows
+}
+
+/// Puts columns where [`envelope_order`] has their nodes.
+fn reordered(rows: &mut SparseRows<f64>, place: &[usize]) {
+    for (column, _) in rows.iter_mut().flatten() {
+        *column = 12 * place[*column / 12] + *column % 12;
     }
 }
 
@@ -249,123 +180,119 @@ pub fn decide(graph: &Graph, options: &Options, draw: u64) -> Result<Outcome, Au
     if graph.edges().is_empty() {
         return Err(AuditError::NoPairs);
     }
-    let method = options.method.choose(augmented_size(graph))?;
-    let cameras = cameras::draw(graph, options.seed, draw);
-    let blocks = Blocks::new(graph, &cameras);
-    let j = Jacobian::new(&blocks, reference(graph));
-    let columns = 12 * graph.nodes();
-    let (eigenvalue, matlab_rank) = match method {
-        Method::Gram => (dense::least_eigenvalue(j.dense_gram())?, None),
-        Method::Sparse => (sparse::smallest(&j, 1)?.values[0].powi(2), None),
-        Method::Auto | Method::Dense => {
-            let (values, _) = dense::singular(j.dense(), false)?;
-            let rank = dense::matlab_rank(&values, j.size());
-            let smallest = values.last().copied().unwrap_or(f64::NAN);
-            (smallest * smallest, Some(rank))
-        }
-    };
+    let mut j = augmented(graph, options.seed, draw);
+    reordered(&mut j, &envelope_order(graph));
+    let (values, _) = Inverse::new(&j, 12 * graph.nodes())?.smallest(1, 1e-10)?;
+    let smallest = values[0];
     Ok(Outcome {
-        verdict: FloatVerdict::by_tolerance(eigenvalue, options.tolerance),
-        eigenvalue,
-        matlab_rank,
-        columns,
-        method,
+        verdict: FloatVerdict::by_tolerance(smallest * smallest, options.tolerance),
+        smallest,
     })
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_are_read_as_they_are_written() {
-        for method in Method::ALL {
-            assert_eq!(method.to_string().parse(), Ok(method));
-        }
-        assert_eq!("Dense".parse::<Method>(), Err(UnknownMethod));
+/// Components by the rows of a null space that vanish (the paper's section 4.2): for every edge the number of its
+/// component, counted in the order in which they were found.
+///
+/// The frame is put on an edge without component, first on the usual one. The cameras whose twelve rows of the null space
+/// vanish (sums of absolute values, then the norm over the vectors, below 1e-4) are in its component, with all edges
+/// between them.
+///
+/// # Errors
+/// See [`AuditError`].
+pub fn components(graph: &Graph, options: &Options, draw: u64) -> Result<Vec<usize>, AuditError> {
+    let edges = graph.edges();
+    if edges.is_empty() {
+        return Err(AuditError::NoPairs);
     }
-
-    #[test]
-    fn what_is_not_a_number_is_no_verdict() {
-        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-            let verdict = FloatVerdict::by_tolerance(value, TOLERANCE);
-            assert_eq!(verdict, FloatVerdict::Undecided);
-            let outcome = Outcome {
-                verdict,
-                eigenvalue: value,
-                matlab_rank: Some(12),
-                columns: 12,
-                method: Method::Dense,
+    let (place, rows) = (envelope_order(graph), drawn(graph, options.seed, draw));
+    let mut component = vec![None; edges.len()];
+    let mut frame = reference(graph);
+    for number in 0.. {
+        let mut j = rows.clone();
+        j.extend(jacobian::gauge(&Doubles, graph, frame));
+        reordered(&mut j, &place);
+        let null = Inverse::new(&j, 12 * graph.nodes())?.null_space(options.tolerance)?;
+        let vanishes = |v: u32| {
+            let of = |x: &Vec<f64>| {
+                x[12 * place[v as usize]..][..12]
+                    .iter()
+                    .map(|x| x.abs())
+                    .sum()
             };
-            assert_eq!(outcome.by_rank(), Some(FloatVerdict::Undecided));
+            let squares: f64 = null.iter().map(of).map(|part: f64| part * part).sum();
+            squares.sqrt() < VANISHES
+        };
+        for (e, &(i, j)) in edges.iter().enumerate() {
+            if component[e].is_none() && (e == frame || vanishes(i) && vanishes(j)) {
+                component[e] = Some(number);
+            }
         }
-        let verdict = |x| FloatVerdict::by_tolerance(x, 1e-10);
-        assert_eq!(verdict(2e-10), FloatVerdict::Solvable);
-        assert_eq!(verdict(1e-10), FloatVerdict::NotSolvable);
-        assert_eq!(verdict(0.0), FloatVerdict::NotSolvable);
-    }
-
-    fn graph(nodes: u32, pairs: &[(u32, u32)]) -> Graph {
-        Graph::from_pairs(nodes, pairs.to_vec()).unwrap().0
-    }
-
-    /// K4 and the 4-cycle, by both methods: the same smallest singular value up to
-    /// rounding, and the right verdicts.
-    #[test]
-    fn dense_and_sparse_agree() {
-        let complete = graph(4, &[(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)]);
-        let square = graph(4, &[(0, 1), (1, 2), (2, 3), (0, 3)]);
-        for seed in 0..5 {
-            let outcome = |graph, method| {
-                let options = Options {
-                    tolerance: TOLERANCE,
-                    method,
-                    seed,
-                };
-                decide(graph, &options, 0).unwrap()
-            };
-            let (dense, sparse) = (
-                outcome(&complete, Method::Dense),
-                outcome(&complete, Method::Sparse),
-            );
-            assert_eq!(dense.verdict, FloatVerdict::Solvable);
-            assert_eq!(dense.by_rank(), Some(FloatVerdict::Solvable));
-            assert!((dense.eigenvalue / sparse.eigenvalue - 1.0).abs() < 1e-6);
-            // J^T J loses what is below eps |J|^2, some 1e-11.
-            let gram = outcome(&complete, Method::Gram);
-            assert_eq!(gram.verdict, FloatVerdict::Solvable);
-            assert!((gram.eigenvalue - dense.eigenvalue).abs() < 1e-9);
-            let (dense, sparse) = (
-                outcome(&square, Method::Dense),
-                outcome(&square, Method::Sparse),
-            );
-            assert_eq!(dense.verdict, FloatVerdict::NotSolvable);
-            assert_eq!(dense.matlab_rank, Some(47));
-            assert_eq!(sparse.verdict, FloatVerdict::NotSolvable);
-            assert!(dense.smallest() < 1e-11 && sparse.smallest() < 1e-11);
-            assert!(outcome(&square, Method::Gram).eigenvalue.abs() < 1e-9);
+        match component.iter().position(Option::is_none) {
+            Some(next) => frame = next,
+            None => break,
         }
     }
+    Ok(component.into_iter().flatten().collect())
+}
 
-    #[test]
-    fn too_large_says_what_it_would_need() {
-        let path: Vec<(u32, u32)> = (0..2000).map(|k| (k, k + 1)).collect();
-        let options = Options {
-            tolerance: TOLERANCE,
-            method: Method::Dense,
-            seed: 1,
+/// What floating point found of a graph, held against its verdict.
+#[derive(Clone, Debug)]
+pub struct Beside {
+    /// The float side at the first draw.
+    pub outcome: Outcome,
+    /// Components of the float side; `None` if it is undecided.
+    pub components: Option<usize>,
+    /// Its time, components included.
+    pub time: Duration,
+    /// How many draws there were.
+    pub draws: usize,
+    /// At how many of them the float verdict was not the exact one.
+    pub misjudged: usize,
+    /// Whether both sides agree at every draw, and on the number of components at the first.
+    pub agrees: bool,
+}
+
+impl Beside {
+    /// Computes it at so many draws of cameras, one at least.
+    ///
+    /// # Errors
+    /// See [`AuditError`].
+    pub fn new(
+        graph: &Graph,
+        exact: &Verdict,
+        options: &Options,
+        draws: u64,
+    ) -> Result<Self, AuditError> {
+        let start = Instant::now();
+        let outcome = decide(graph, options, 0)?;
+        let components = match outcome.verdict {
+            FloatVerdict::Solvable => Some(1),
+            FloatVerdict::NotSolvable => {
+                let found = components(graph, options, 0)?;
+                Some(found.iter().max().map_or(0, |largest| largest + 1))
+            }
+            FloatVerdict::Undecided => None,
         };
-        let error = decide(&graph(2001, &path), &options, 0).unwrap_err();
-        // 10 * 2000 + 2001 + 15 rows, 12 * 2001 columns, 8 bytes each: 3.94 GiB.
-        let expected = AuditError::TooLarge {
-            rows: 22_016,
-            columns: 24_012,
-            gib: 4,
+        let time = start.elapsed();
+        let more = (1..draws).into_par_iter();
+        let more = more.map(|draw| Ok(decide(graph, options, draw)?.verdict));
+        let mut verdicts = more.collect::<Result<Vec<_>, AuditError>>()?;
+        verdicts.push(outcome.verdict);
+        let right = match exact.value {
+            Value::NotFiniteSolvable => FloatVerdict::NotSolvable,
+            _ => FloatVerdict::Solvable,
         };
-        assert_eq!(error, expected);
-        assert_eq!(
-            decide(&graph(2, &[]), &options, 0),
-            Err(AuditError::NoPairs)
-        );
+        let misjudged = verdicts.iter().filter(|&&verdict| verdict != right).count();
+        Ok(Self {
+            outcome,
+            components,
+            time,
+            draws: verdicts.len(),
+            misjudged,
+            agrees: misjudged == 0 && components == Some(exact.components.len()),
+        })
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -58,16 +58,17 @@ pub struct OpenQuote {
     pub line: usize,
 }
 
-/// The lines of comma-separated values that are not blank, with their numbers from 1. A row may
+/// The lines of values between separators that are not blank, with their numbers from 1. A row may
 /// have any number of cells; they may stand in double quotes, which are doubled within.
 ///
 /// # Errors
 /// A quoted cell that does not end on its line.
-pub fn lines(text: &str) -> Result<Vec<(usize, StringRecord)>, OpenQuote> {
+pub fn lines(text: &str, separator: u8) -> Result<Vec<(usize, StringRecord)>, OpenQuote> {
     // With its last line ended, a quoted cell that does not end has a line end in it.
     let text = format!("{text}\n");
     let mut reader = ::csv::ReaderBuilder::new()
         .has_headers(false)
+        .delimiter(separator)
         .flexible(true)
         .terminator(::csv::Terminator::Any(b'\n'))
         .from_reader(text.as_bytes());
@@ -148,7 +149,7 @@ mod tests {
 
     #[test]
     fn lines_have_their_numbers() {
-        let found = lines("\n\na,b\r\n \r\n\n\"1,\"\"2\",\nc").unwrap();
+        let found = lines("\n\na,b\r\n \r\n\n\"1,\"\"2\",\nc", b',').unwrap();
         let numbers: Vec<usize> = found.iter().map(|(line, _)| *line).collect();
         assert_eq!(numbers, [3, 6, 7]);
         let cells: Vec<Vec<&str>> = found
@@ -156,15 +157,15 @@ mod tests {
             .map(|(_, cells)| cells.iter().collect())
             .collect();
         assert_eq!(cells, [vec!["a", "b"], vec!["1,\"2", ""], vec!["c"]]);
-        assert_eq!(lines("\n \n"), Ok(vec![]));
+        assert_eq!(lines("\n \n", b','), Ok(vec![]));
         // A quoted cell that is empty is no blank line.
-        assert_eq!(lines("\"\"").unwrap().len(), 1);
+        assert_eq!(lines("\"\"", b',').unwrap().len(), 1);
     }
 
     #[test]
     fn quotes_end_on_their_line() {
         for open in ["a\n\n\"1,2\n", "a\n\n\"1,2", "a\n\nb,\"2\n3\"\n"] {
-            assert_eq!(lines(open), Err(OpenQuote { line: 3 }), "{open:?}");
+            assert_eq!(lines(open, b','), Err(OpenQuote { line: 3 }), "{open:?}");
         }
     }
 }

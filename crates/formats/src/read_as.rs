@@ -5,6 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::fmt;
 
 use viewcert::graph::{Graph, Labels};
@@ -37,6 +38,9 @@ pub struct ReadAs {
     pub guessed: Vec<String>,
     /// How many pairs were given again, the same or reversed, and merged.
     pub merged: usize,
+    /// What had to be said to read it so, as [`ReadOptions::given`](crate::ReadOptions::given) has it.
+    #[serde(default)]
+    pub options: BTreeMap<String, String>,
 }
 
 impl ReadAs {

@@ -6,7 +6,7 @@ use std::io::{self, Write};
 use viewcert::certificate::hex;
 use viewcert::decide::{Component, Verdict};
 use viewcert::geometry::model::Model;
-use viewcert::graph::UnionFind;
+use viewcert::graph::{Graph, UnionFind};
 use viewcert::here::{Centres, Here, Motion, Special};
 use viewcert_formats::NamedGraph;
 
@@ -30,25 +30,38 @@ pub struct HereReport<'a> {
     pub motions: &'a [Motion],
 }
 
+/// What the rank means (Theorem 16.1), given that of generic cameras, if it is known.
+fn means(here: &Here, graph: &Graph, generic: Option<usize>) -> &'static str {
+    let mut sets = UnionFind::new(graph.nodes());
+    let edges = graph.edges().iter();
+    let joined = edges.filter(|&&(i, j)| sets.union(i as usize, j as usize));
+    let is_connected = joined.count() + 1 >= graph.nodes();
+    let is_linear = here.model != Model::Projective || here.is_planar && is_connected;
+    let is_degenerate = generic.is_none_or(|generic| here.rank.value < generic);
+    match (here.is_determined(), is_linear) {
+        (true, true) => "these cameras are the only ones",
+        (true, false) => "these cameras are an isolated solution of multiplicity one",
+        (false, false) if is_degenerate && is_connected => {
+            "these cameras have a motion of first order"
+        }
+        (false, _) => "infinitely many sets of cameras",
+    }
+}
+
+/// Whether the cameras are determined, and what that means.
+pub(super) fn answer(here: &Here, graph: &Graph, generic: Option<usize>) -> String {
+    let is = if here.is_determined() {
+        "determined"
+    } else {
+        "not determined"
+    };
+    format!("{is}: {}", means(here, graph, generic))
+}
+
 impl HereReport<'_> {
     /// Whether the cameras have a smaller rank than generic ones.
     pub fn is_degenerate(&self) -> bool {
         self.here.rank.value < self.verdict.rank
-    }
-
-    /// What the rank means (Theorem 16.1).
-    fn means(&self) -> &'static str {
-        let is_linear = self.here.model != Model::Projective;
-        let is_planar = self.here.is_planar && self.is_connected();
-        match (self.here.is_determined(), is_linear || is_planar) {
-            (true, true) => "these cameras are the only ones",
-            (true, false) => "these cameras are an isolated solution of multiplicity one",
-            (false, true) => "infinitely many sets of cameras",
-            (false, false) if !self.is_degenerate() || !self.is_connected() => {
-                "infinitely many sets of cameras"
-            }
-            (false, false) => "these cameras have a motion of first order",
-        }
     }
 
     /// The part here of each edge.
@@ -66,26 +79,15 @@ impl HereReport<'_> {
             .collect()
     }
 
-    fn is_connected(&self) -> bool {
-        let mut sets = UnionFind::new(self.input.graph.nodes());
-        let edges = self.input.graph.edges().iter();
-        let joined = edges.filter(|&&(i, j)| sets.union(i as usize, j as usize));
-        joined.count() + 1 >= self.input.graph.nodes()
-    }
-
     /// Writes lines behind those of the verdict.
     ///
     /// # Errors
     /// Those of the writer.
     pub fn write_text(&self, out: &mut impl Write, list_components: bool) -> io::Result<()> {
-        let here = self.here;
-        let is = if here.is_determined() {
-            "determined"
-        } else {
-            "not determined"
-        };
+        let (here, generic) = (self.here, Some(self.verdict.rank));
         let strength = text::strength(here.rank.strength);
-        writeln!(out, "  at cameras  {is}: {} ({strength})", self.means())?;
+        let answer = answer(here, &self.input.graph, generic);
+        writeln!(out, "  at cameras  {answer} ({strength})")?;
         if self.is_degenerate() {
             let rank = self.verdict.rank;
             writeln!(
@@ -166,7 +168,7 @@ impl HereReport<'_> {
         });
         HereLine {
             determined: here.is_determined(),
-            means: self.means(),
+            means: means(here, &self.input.graph, Some(self.verdict.rank)),
             degenerate: self.is_degenerate(),
             strength: here.rank.strength.name(),
             error_log2: here.rank.strength.error_log2(),

@@ -5,8 +5,6 @@
 pub mod advice;
 pub mod assumptions;
 #[cfg(feature = "audit")]
-pub mod at_cameras;
-#[cfg(feature = "audit")]
 pub mod audit;
 mod condition;
 pub mod database;
@@ -31,8 +29,6 @@ pub mod page;
 mod part_names;
 pub mod priors;
 pub mod read;
-#[cfg(feature = "audit")]
-pub mod rulings;
 pub mod sheet;
 mod shown;
 pub mod split;

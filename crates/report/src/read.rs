@@ -1,6 +1,7 @@
 //! How an input was read, for programs. (For people it is one line.)
 
 use serde::Serialize;
+use std::collections::BTreeMap;
 use viewcert_formats::ReadAs;
 
 /// The member `read` of a report.
@@ -14,6 +15,8 @@ pub struct ReadLine<'a> {
     ignored: &'a [String],
     guessed: &'a [String],
     merged: usize,
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    options: &'a BTreeMap<String, String>,
 }
 
 impl<'a> From<&'a ReadAs> for ReadLine<'a> {
@@ -25,6 +28,7 @@ impl<'a> From<&'a ReadAs> for ReadLine<'a> {
             ignored: &read.ignored,
             guessed: &read.guessed,
             merged: read.merged,
+            options: &read.options,
         }
     }
 }

@@ -247,7 +247,7 @@ fn write_table(
 fn read_table(path: &Path) -> Result<Vec<Published>> {
     let text = std::fs::read_to_string(path).with_context(|| path.display().to_string())?;
     let refused = |line| format!("{}:{line}: not a line of the table", path.display());
-    let lines = csv::lines(&text).map_err(|quote| anyhow!("{}", refused(quote.line)))?;
+    let lines = csv::lines(&text, b',').map_err(|quote| anyhow!("{}", refused(quote.line)))?;
     lines
         .iter()
         .skip(1)

@@ -1,6 +1,6 @@
 //! Any input to graphs: which format it is, and its graphs one by one.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::fs::File;
 use std::io::{Cursor, Read};
@@ -11,7 +11,8 @@ use std::sync::Arc;
 use crate::colmap::{self, Database, DatabaseError, DatabaseFacts, Pipeline};
 use crate::documents::{self, Document};
 use crate::edge_list::Reading;
-use crate::edge_list::columns::ListOptions;
+use crate::edge_list::columns::{Columns, ListOptions};
+use crate::edge_list::decimal::Decimal;
 use crate::error::{Fault, Place, Problem, ReadError};
 use crate::inflate::{Compression, Inflater};
 use crate::lines::{Encoding, LINE_LIMIT, Lines};
@@ -163,6 +164,85 @@ pub struct ReadOptions {
     pub only: Option<Arc<BTreeSet<String>>>,
 }
 
+impl ReadOptions {
+    /// What is said here, by the names of the command line: what reads the same file alike.
+    pub fn given(&self) -> BTreeMap<String, String> {
+        let list = &self.list;
+        let number = |number: Option<u32>| number.map(|number| number.to_string());
+        let yes = |is: bool| is.then(String::new);
+        let (tracks, default) = (self.tracks.as_ref(), TrackOptions::default());
+        let other = |number: u32, usual: u32| Some(number).filter(|number| *number != usual);
+        let views = tracks.and_then(|tracks| other(tracks.min_views, default.min_views));
+        let spread = tracks.and_then(|tracks| other(tracks.max_spread, default.max_spread));
+        let all = [
+            ("format", self.format.map(|format| format.to_string())),
+            ("variable", self.variable.clone()),
+            ("pipeline", self.pipeline.map(|mapper| mapper.to_string())),
+            ("min-inliers", number(self.min_inliers)),
+            ("columns", list.columns.as_ref().map(Columns::to_string)),
+            (
+                "min-weight",
+                list.min_weight.as_ref().map(Decimal::to_string),
+            ),
+            ("skip-loops", yes(list.skip_loops)),
+            ("tracks", yes(tracks.is_some())),
+            ("min-views", number(views)),
+            ("max-spread", number(spread)),
+            ("no-rigs", yes(tracks.is_some_and(|tracks| !tracks.rigs))),
+        ];
+        let said = all
+            .into_iter()
+            .filter_map(|(name, value)| Some((name.to_owned(), value?)));
+        said.collect()
+    }
+
+    /// The options that [`given`](Self::given) tells.
+    ///
+    /// # Errors
+    /// The name of an option that there is not, or whose value is none.
+    pub fn of_given(given: &BTreeMap<String, String>) -> Result<Self, String> {
+        let mut options = Self::default();
+        let mut tracks = TrackOptions::default();
+        for (name, value) in given {
+            let known = match &**name {
+                "format" => value
+                    .parse()
+                    .map(|format| options.format = Some(format))
+                    .is_ok(),
+                "variable" => options.variable.replace(value.clone()).is_none(),
+                "pipeline" => {
+                    let both = [Pipeline::Incremental, Pipeline::Global];
+                    options.pipeline = both.into_iter().find(|mapper| mapper.name() == value);
+                    options.pipeline.is_some()
+                }
+                "min-inliers" => value
+                    .parse()
+                    .map(|least| options.min_inliers = Some(least))
+                    .is_ok(),
+                "columns" => value
+                    .parse()
+                    .map(|of| options.list.columns = Some(of))
+                    .is_ok(),
+                "min-weight" => value
+                    .parse()
+                    .map(|least| options.list.min_weight = Some(least))
+                    .is_ok(),
+                "skip-loops" => !std::mem::replace(&mut options.list.skip_loops, true),
+                "tracks" => true,
+                "min-views" => value.parse().map(|least| tracks.min_views = least).is_ok(),
+                "max-spread" => value.parse().map(|most| tracks.max_spread = most).is_ok(),
+                "no-rigs" => std::mem::take(&mut tracks.rigs),
+                _ => false,
+            };
+            if !known {
+                return Err(name.clone());
+            }
+        }
+        options.tracks = given.contains_key("tracks").then_some(tracks);
+        Ok(options)
+    }
+}
+
 /// The graphs of an input, or why there is none.
 pub type Graphs = Box<dyn Iterator<Item = Result<NamedGraph, ReadError>>>;
 
@@ -196,7 +276,7 @@ pub fn read_meant(
 /// the options say that it is such a file; every other error ends the stream.
 pub fn read_graphs(path: impl AsRef<Path>, options: &ReadOptions) -> Graphs {
     let (path, options) = (path.as_ref().to_owned(), options.clone());
-    let name = path.display().to_string();
+    let (name, given) = (path.display().to_string(), options.given());
     let open = move || match path.to_str() {
         Some("-") => graphs(name, std::io::stdin(), options),
         _ if path.is_dir() => Box::new(std::iter::once(folder(&path, &options))),
@@ -205,7 +285,12 @@ pub fn read_graphs(path: impl AsRef<Path>, options: &ReadOptions) -> Graphs {
             Err(error) => failed(&name, Place::Input.fault(Problem::Unreadable(error))),
         },
     };
-    Box::new(std::iter::once_with(open).flatten())
+    let graphs = std::iter::once_with(open).flatten();
+    Box::new(graphs.map(move |graph| {
+        let mut graph = graph?;
+        graph.read.options.clone_from(&given);
+        Ok(graph)
+    }))
 }
 
 /// Streams the graphs of `input`, which its graphs and errors call `name`.
