@@ -196,8 +196,7 @@ def float_side(arguments, folder):
          "float, s", "float, CPU s", "exact, CPU s", "CPU ratio", "peak, GiB", "paper, s")
     for line in published:
         path = data / "table3" / line["file"]
-        audit = ["/usr/bin/timeout", arguments.seconds, VERIFY, "audit", "--json",
-                 "--method", "sparse", path]
+        audit = ["/usr/bin/timeout", arguments.seconds, VERIFY, "audit", "--json", path]
         walls, cpus, peak = [], [], 0
         for _ in range(arguments.runs):
             timed = ["/usr/bin/time", "-f", "%M", "-o", folder / "peak", *audit]

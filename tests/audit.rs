@@ -19,32 +19,25 @@ const SQUARE: &str = "0 1\n1 2\n2 3\n0 3\n";
 const COMPLETE: &str = "0 1\n0 2\n0 3\n1 2\n1 3\n2 3\n";
 
 #[test]
-fn both_sides_agree_on_small_graphs_by_every_method() {
+fn both_sides_agree_on_small_graphs() {
     let folder = tempfile::tempdir().unwrap();
     let square = graph_file(folder.path(), "square.txt", SQUARE);
     let complete = graph_file(folder.path(), "complete.txt", COMPLETE);
-    for method in ["dense", "gram", "sparse"] {
-        let run = verify(&[
-            "audit", "--json", "--method", method, "--draws", "5", &square, &complete,
-        ]);
-        assert_eq!(run.code, 0, "{}{}", run.out, run.err);
-        let found = lines(&run);
-        for (line, verdict, components) in [
-            (&found[0], "not-finite-solvable", 4),
-            (&found[1], "finite-solvable", 1),
-        ] {
-            assert_eq!(line["float"]["verdict"], verdict);
-            assert_eq!(line["float"]["method"], method);
-            assert_eq!(line["float"]["components"], components);
-            assert_eq!(line["exact"]["components"], components);
-            assert_eq!(line["agree"], true);
-            assert_eq!((&line["draws"], &line["misjudged"]), (&5.into(), &0.into()));
-        }
-        if method != "gram" {
-            assert!(found[0]["float"]["margin_decades"].as_f64().unwrap() < -5.0);
-        }
-        assert!(found[1]["float"]["margin_decades"].as_f64().unwrap() > 0.0);
+    let run = verify(&["audit", "--json", "--draws", "5", &square, &complete]);
+    assert_eq!(run.code, 0, "{}{}", run.out, run.err);
+    let found = lines(&run);
+    for (line, verdict, components) in [
+        (&found[0], "not-finite-solvable", 4),
+        (&found[1], "finite-solvable", 1),
+    ] {
+        assert_eq!(line["float"]["verdict"], verdict);
+        assert_eq!(line["float"]["components"], components);
+        assert_eq!(line["exact"]["components"], components);
+        assert_eq!(line["agree"], true);
+        assert_eq!((&line["draws"], &line["misjudged"]), (&5.into(), &0.into()));
     }
+    let margin = |k: usize| found[k]["float"]["margin_decades"].as_f64().unwrap();
+    assert!(margin(0) < -5.0 && margin(1) > 0.0, "{}", run.out);
 }
 
 /// A tolerance above everything calls K4 unsolvable, at every draw.
@@ -71,17 +64,6 @@ fn a_tolerance_that_lies_is_found_out() {
         run.out
     );
     assert!(certificate.is_file());
-}
-
-#[test]
-fn too_large_for_the_dense_method() {
-    let folder = tempfile::tempdir().unwrap();
-    let path: String = (0..2000).map(|k| format!("{k} {}\n", k + 1)).collect();
-    let path = graph_file(folder.path(), "path.txt", &path);
-    let run = verify(&["audit", "--method", "dense", &path]);
-    assert_eq!(run.code, 3);
-    assert!(run.err.contains("22016 x 24012"), "{}", run.err);
-    assert!(run.err.contains("--method sparse"), "{}", run.err);
 }
 
 #[test]
@@ -137,18 +119,14 @@ fn claims_confirmed_refuted_open_and_bad() {
     assert_eq!(run.code, 0);
     assert_eq!(lines(&run)[0]["ruling"], "not decidable");
 
-    // Unknown graph, no claim, contradictory claims, not a number: each is said, and the
-    // good row is still decided.
-    let run = audit(
-        "name,verdict,components\nsquare,,4\nnobody,,1\nsquare,,\nsquare,solvable,3\nsquare,,x\n",
-    );
+    // Unknown graph, no claim, not a number: each is said, and the good row is still decided.
+    let run = audit("name,verdict,components\nsquare,,4\nnobody,,1\nsquare,,\nsquare,,x\n");
     assert_eq!(run.code, 2);
     assert_eq!(lines(&run).len(), 1);
     for (row, word) in [
         (2, "unknown graph nobody"),
         (3, "nothing is claimed"),
-        (4, "contradict"),
-        (5, "not a number"),
+        (4, "not a number"),
     ] {
         // The first row is on the second line.
         let place = format!("claims.csv:{}: ", row + 1);
@@ -190,7 +168,6 @@ fn tables_that_are_not_understood_are_refused() {
             2,
             "not a JSON list of objects",
         ),
-        ("{\"graph\": {\"name\": \"C~\"}}", 1, "verify --json"),
     ] {
         let run = audit(table);
         assert_eq!(run.code, 2, "{table}: {}", run.out);
@@ -235,7 +212,7 @@ fn claims_in_all_models() {
     let run = audit("Cl,plane,,16,\n");
     assert_eq!(run.code, 2, "{}", run.out);
     let said = format!("{}{}", run.out, run.err);
-    let wanted = "\"plane\" is none of projective, calibrated and affine";
+    let wanted = "\"plane\" is not one of projective, calibrated and affine";
     assert!(said.contains(wanted), "{said}");
 }
 
@@ -277,7 +254,7 @@ fn the_programs_own_lines_are_claims() {
         (
             "not-finite-solvable",
             "finite-solvable",
-            "contradict each other",
+            "claimed finite-solvable, is not-finite-solvable",
         ),
         (
             "{\"nodes\":2,\"edges\":1}]",
@@ -294,6 +271,14 @@ fn the_programs_own_lines_are_claims() {
         assert!(said.contains(why), "{from}: {said}");
         assert!(!said.contains("confirmed"), "{said}");
     }
+    let run = audit("{\"graph\": {\"name\": \"C~\"}}");
+    assert_eq!(run.code, 2, "{}", run.out);
+    assert!(
+        run.err
+            .contains("claims.jsonl:1: not a record as `verify --json`"),
+        "{}",
+        run.err
+    );
     // Of standard input nothing is left.
     let run = audit(&own.replace(&square, "-"));
     assert_eq!(run.code, 2);
@@ -426,4 +411,199 @@ fn the_variable_and_the_format_can_be_said() {
     let run = verify(&["audit", "--claims", "x.csv", "--format", "graph6"]);
     assert_eq!(run.code, 2);
     assert!(run.err.contains("cannot be used with"), "{}", run.err);
+}
+
+/// The program's own table, by commas, semicolons or tabs, is one of claims; so are the published ones.
+#[test]
+fn tables_of_the_program_are_claims() {
+    let folder = tempfile::tempdir().unwrap();
+    let square = graph_file(folder.path(), "=square.txt", SQUARE);
+    let lines = graph_file(folder.path(), "two.g6", "Bw\nHBQkcP_\n");
+    let absent = folder.path().join("absent.txt").display().to_string();
+    let audit = |table: &str| {
+        let table = graph_file(folder.path(), "claims.csv", table);
+        verify(&["audit", "--claims", &table])
+    };
+    for extra in [
+        &[][..],
+        &["--solutions=full"],
+        &["--model", "calibrated"],
+        &["--model", "affine"],
+    ] {
+        let own = verify(&[&["--table=csv", &square, &lines], extra].concat()).out;
+        for table in [own.clone(), own.replace(',', ";"), own.replace(',', "\t")] {
+            let run = audit(&table);
+            assert_eq!(run.code, 0, "{table}{}{}", run.out, run.err);
+            assert!(
+                run.out.contains("3 confirmed, 0 refuted"),
+                "{table}{}",
+                run.out
+            );
+        }
+        let wrong = own.replacen(",proved,4,", ",proved,3,", 1);
+        if wrong != own {
+            assert_eq!(audit(&wrong).code, 1, "{wrong}");
+        }
+    }
+    // A graph that had no answer claims nothing; the others are ruled on.
+    let own = verify(&["--table=csv", &square, &absent]).out;
+    let run = audit(&own);
+    assert_eq!(run.code, 2, "{own}{}", run.out);
+    assert!(
+        run.out.contains("1 confirmed") && run.err.contains("had no answer"),
+        "{}{}",
+        run.out,
+        run.err
+    );
+
+    let published = crate::common::root().join("certificates/n11-finite-solvable.tsv");
+    let published = std::fs::read_to_string(published).unwrap();
+    let mut rows: Vec<&str> = published.lines().take(1).collect();
+    rows.extend(published.lines().skip(1).step_by(4000));
+    let run = audit(&format!("{}\n", rows.join("\n")));
+    assert_eq!(run.code, 0, "{}{}", run.out, run.err);
+    assert!(run.out.contains("5 confirmed, 0 refuted"), "{}", run.out);
+    // Another number of solutions than the published one.
+    let wrong = rows[1].trim_end_matches(|c: char| c.is_ascii_digit());
+    let run = audit(&format!("{}\n{wrong}77\n", rows[0]));
+    assert!(
+        run.out.contains("claimed solutions 77"),
+        "{}{}",
+        run.out,
+        run.err
+    );
+}
+
+/// `--graphs` says where the files of every column are.
+#[test]
+fn the_folder_of_graphs_holds_for_every_column() {
+    let folder = tempfile::tempdir().unwrap();
+    let graphs = folder.path().join("graphs");
+    std::fs::create_dir(&graphs).unwrap();
+    graph_file(&graphs, "square.txt", SQUARE);
+    graph_file(&graphs, "two.g6", "Bw\nCl\n");
+    for (column, name) in [
+        ("graph", "square.txt"),
+        ("graph", "square"),
+        ("graph", "two.g6:2"),
+        ("graph", "Cl"),
+        ("graph6", "Cl"),
+        ("file", "square.txt"),
+        ("name", "square"),
+        ("name", "two.g6:2"),
+    ] {
+        let table = format!("{column},components\n{name},4\n");
+        let table = graph_file(folder.path(), "claims.csv", &table);
+        let run = verify(&[
+            "audit",
+            "--claims",
+            &table,
+            "--graphs",
+            graphs.to_str().unwrap(),
+        ]);
+        assert_eq!(run.code, 0, "{column} {name}: {}{}", run.out, run.err);
+    }
+}
+
+/// A record says how its graph was read, and it is read so again.
+#[test]
+fn records_are_read_as_they_say() {
+    let folder = tempfile::tempdir().unwrap();
+    let odd = graph_file(folder.path(), "odd.txt", "a b 1 x\nb c 2\nc a 3 y z\n");
+    let table = graph_file(
+        folder.path(),
+        "table.csv",
+        "one,two,three,w\na,x,b,9\nb,x,c,9\nc,x,a,9\na,x,d,1\n",
+    );
+    let loops = graph_file(folder.path(), "loops.txt", "a b\nb c\nc a\nc c\n");
+    for options in [
+        &[&*odd, "--format", "edges"][..],
+        &[&table, "--columns", "one,three"],
+        &[&table, "--columns", "one,three,w", "--min-weight", "5"],
+        &[&loops, "--skip-loops"],
+    ] {
+        let own = verify(&[options, &["--json"]].concat());
+        assert!(own.code < 2, "{options:?}: {}", own.err);
+        let records = graph_file(folder.path(), "own.jsonl", &own.out);
+        let run = verify(&["audit", "--claims", &records]);
+        assert_eq!(run.code, 0, "{options:?}: {}{}", run.out, run.err);
+        assert!(run.out.contains("1 confirmed"), "{options:?}: {}", run.out);
+        let wrong = own.out.replacen("\"rank\":", "\"rank\":1", 1);
+        let records = graph_file(folder.path(), "own.jsonl", &wrong);
+        assert_eq!(
+            verify(&["audit", "--claims", &records]).code,
+            1,
+            "{options:?}"
+        );
+    }
+}
+
+/// What a record claims besides the verdict is decided again, or it is not confirmed; and one row that claims something
+/// else leaves the others.
+#[test]
+fn records_are_confirmed_as_a_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, text: &str| graph_file(folder.path(), name, text);
+    let audit = |claims: &str| {
+        let records = file("own.jsonl", claims);
+        verify(&["audit", "--json", "--claims", &records])
+    };
+    let rulings = |run: &Run| -> Vec<String> {
+        let lines = lines(run).into_iter();
+        lines
+            .map(|line| line["ruling"].as_str().unwrap().to_owned())
+            .collect()
+    };
+    let complete = file("complete.txt", COMPLETE);
+    let square = file("square.txt", SQUARE);
+    // In a plane, a 4-cycle with calibrated cameras moves.
+    let options = ["--json", "--planar", "--model", "calibrated"];
+    let own = verify(&[&[&*square], &options[..]].concat()).out;
+    assert_eq!(rulings(&audit(&own)), ["confirmed"], "{own}");
+    let wrong = own.replacen(
+        "\"planar\":{\"verdict\":\"not-finite-solvable\"",
+        "\"planar\":{\"verdict\":\"solvable\"",
+        1,
+    );
+    assert_ne!(wrong, own, "{own}");
+    let run = audit(&wrong);
+    assert_eq!(
+        (run.code, rulings(&run)),
+        (1, vec!["refuted".to_owned()]),
+        "{}",
+        run.out
+    );
+    // Intrinsics are another question.
+    let intrinsics = file("intrinsics.txt", "default known\nfocal 0\n");
+    let other = verify(&[&complete, "--json", "--intrinsics", &intrinsics]);
+    assert!(other.code < 2, "{}", other.err);
+    let mixed = format!("{}{}", other.out, verify(&[&complete, "--json"]).out);
+    let run = audit(&mixed);
+    assert_eq!(
+        rulings(&run),
+        ["not decidable", "confirmed"],
+        "{}{}",
+        run.out,
+        run.err
+    );
+    assert!(run.out.contains("intrinsics"), "{}", run.out);
+    // Members of components, where they are listed.
+    let own = verify(&[&square, "--json", "--components"]).out;
+    assert_eq!(rulings(&audit(&own)), ["confirmed"], "{own}");
+    let wrong = own.replacen("\"labels\":[\"0\",\"1\"]", "\"labels\":[\"0\",\"2\"]", 1);
+    assert_ne!(wrong, own, "{own}");
+    assert_eq!(rulings(&audit(&wrong)), ["refuted"]);
+    // What is proved by a full count only.
+    let two = file("two.g6", "HBQkcP_\n");
+    for (claimed, ruling) in [("2", "confirmed"), ("3", "refuted")] {
+        let own = verify(&[&two, "--json", "--solutions=full"]).out;
+        let own = own.replace(
+            "\"exactly\":2,\"at_least\":2,\"at_most\":2",
+            &format!("\"exactly\":{claimed},\"at_least\":{claimed},\"at_most\":{claimed}"),
+        );
+        assert_eq!(rulings(&audit(&own)), [ruling], "{own}");
+    }
+    // Records of other commands claim no verdict.
+    let run = audit(&verify(&["models", &square, "--json"]).out);
+    assert_eq!((run.code, &*run.out), (2, ""), "{}", run.err);
 }

@@ -190,3 +190,71 @@ fn the_answer_alone() {
         run.out
     );
 }
+
+/// Words of all reports are taken for verdicts; that there are no other cameras is more than a rank says.
+#[test]
+fn words_for_verdicts() {
+    let scene = Scene::new(&[("pairs", PAIRS), ("cameras", POSES)]);
+    for (word, ruling) in [
+        ("determined", "confirmed"),
+        ("finite solvable", "confirmed"),
+        ("finite-solvable", "confirmed"),
+        ("not-determined", "refuted"),
+        ("not finite solvable", "refuted"),
+        ("not-finite-solvable", "refuted"),
+        ("solvable", "not decidable"),
+        ("not-solvable", "not decidable"),
+    ] {
+        let run = scene.audit(&format!("verdict;rank\n{word};\n"), &["--json"]);
+        assert_eq!(
+            lines(&run)[0]["ruling"],
+            ruling,
+            "{word}: {}{}",
+            run.out,
+            run.err
+        );
+    }
+    // What the audit of the same graph prints for its own two sides.
+    let run = verify(&["audit", &scene.file("pairs")]);
+    for line in run
+        .out
+        .lines()
+        .filter(|line| line.contains("exact ") || line.contains("float "))
+    {
+        let word = line
+            .split_whitespace()
+            .nth(1)
+            .unwrap()
+            .trim_end_matches(',');
+        let run = scene.audit(&format!("verdict,rank\n{word},40\n"), &[]);
+        assert_eq!(run.code, 0, "{word}: {}{}", run.out, run.err);
+    }
+}
+
+/// A graph with exactly two solutions: its own cameras are isolated, and nobody says that they are the only ones.
+#[test]
+fn determined_is_not_unique() {
+    let poses: String = (1..10)
+        .map(|k: i32| {
+            format!(
+                "pose {} 1 0.{k} 0.{} 0 {k} {} {}\n",
+                k - 1,
+                10 - k,
+                k * k % 7,
+                k * k * k % 11
+            )
+        })
+        .collect();
+    let scene = Scene::new(&[("g.g6", "HBQkcP_\n"), ("cameras", &poses)]);
+    let [graph, cameras] = ["g.g6", "cameras"].map(|name| scene.file(name));
+    let given = verify(&[&graph, "--given", &cameras]);
+    let audit = verify(&["audit", &graph, "--cameras", &cameras]);
+    let line = |run: &Run| {
+        let line = run.out.lines().find(|line| line.contains("at cameras"));
+        line.unwrap_or_else(|| panic!("{}{}", run.out, run.err))
+            .to_owned()
+    };
+    let (given, audit) = (line(&given), line(&audit));
+    assert!(given.contains("an isolated solution"), "{given}");
+    assert!(audit.starts_with(&given), "{given}\n{audit}");
+}

@@ -13,15 +13,12 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 use viewcert::linalg::rational::Rational;
-use viewcert_audit::at_cameras::{FloatClaim, SigmaError, read_table, rule, sigma};
-use viewcert_audit::beside::Beside;
+use viewcert_audit::at_cameras::{SigmaError, read_table, rule, sigma};
 use viewcert_audit::enclosure::Matrix;
-use viewcert_audit::{AuditError, Options as FloatOptions, claims};
-use viewcert_report::at_cameras::AtCameras as AtCamerasReport;
-use viewcert_report::audit as audit_report;
-use viewcert_report::audit::Audit;
-use viewcert_report::rulings::Ruled;
-use viewcert_report::{models as model_report, rulings};
+use viewcert_audit::table::{BadRow, Row};
+use viewcert_audit::{Beside, Options as FloatOptions, claims};
+use viewcert_report::audit::{AtCameras as AtCamerasReport, Audit, Ruled};
+use viewcert_report::models as model_report;
 
 /// What is said for programs, as JSON, and for people.
 type Said = (String, String);
@@ -56,40 +53,21 @@ pub(crate) fn models(py: Python<'_>, decided: Vec<Py<Decided>>) -> PyResult<Said
     found.map_err(|error| of_any(&error))
 }
 
-/// How floating point is asked.
-fn float_options(tolerance: f64, method: &str, seed: u64) -> PyResult<FloatOptions> {
-    if !(tolerance.is_finite() && tolerance > 0.0) {
-        return Err(InputError::new_err(format!(
-            "tolerance={tolerance}: take a positive number"
-        )));
-    }
-    let method = method.parse();
-    Ok(FloatOptions {
-        tolerance,
-        method: method.map_err(|why| InputError::new_err(format!("method: {why}")))?,
-        seed,
-    })
-}
-
-/// Why floating point has no answer.
-fn of_doubles(error: &AuditError) -> PyErr {
-    match error {
-        AuditError::TooLarge { .. } => TooLarge::new_err(error.to_string()),
-        _ => InputError::new_err(error.to_string()),
-    }
-}
-
 /// Floating point beside a verdict of the projective model.
 #[pyfunction]
 pub(crate) fn audit(
     py: Python<'_>,
     decided: &Decided,
     tolerance: f64,
-    method: &str,
     draws: u64,
     seed: u64,
 ) -> PyResult<Said> {
-    let options = float_options(tolerance, method, seed)?;
+    if !(tolerance.is_finite() && tolerance > 0.0) {
+        return Err(InputError::new_err(format!(
+            "tolerance={tolerance}: take a positive number"
+        )));
+    }
+    let options = FloatOptions { tolerance, seed };
     let ((input, verdict), (.., time)) = (decided.answer(), decided.asked());
     let job = Job::new(py)?;
     let work = move || {
@@ -101,21 +79,15 @@ pub(crate) fn audit(
             tolerance,
             float,
         };
-        let said = said(
-            |out| audit_report::json(out, &found),
-            |out| audit_report::text(out, &found),
-        );
-        Ok(said)
+        said(|out| found.write_json(out), |out| found.write_text(out))
     };
-    let found: Result<_, AuditError> = job.run(py, work)?;
-    found
-        .map_err(|error| of_doubles(&error))?
-        .map_err(|error| of_any(&error))
+    let found: anyhow::Result<_> = job.run(py, work)?;
+    found.map_err(|error| of_any(&error))
 }
 
 /// A table of claims.
 #[pyclass(frozen, module = "viewcert._native")]
-pub(crate) struct Claims(Vec<claims::Row>);
+pub(crate) struct Claims(Vec<Row>);
 
 #[pymethods]
 impl Claims {
@@ -131,14 +103,11 @@ impl Claims {
         self.0.len()
     }
 
-    /// What a row calls its graph, if by a name or a file, which somebody has to know.
-    fn name(&self, row: usize) -> PyResult<Option<String>> {
-        let claim = claims::claim(&self.0[row]);
-        let claim = claim.map_err(|error| InputError::new_err(error.to_string()))?;
-        Ok(match claim.graph {
-            claims::Named::Graph(_) => None,
-            claims::Named::File(name) | claims::Named::Name(name) => Some(name),
-        })
+    /// What a row calls its graph, if that may be a name which somebody has to know, and whether it is nothing else.
+    fn name(&self, row: usize) -> PyResult<Option<(String, bool)>> {
+        let claim = claims::claim(&self.0[row]).map_err(of_row)?;
+        let called = claim.called();
+        Ok(called.map(|(name, is_name)| (name.to_owned(), is_name)))
     }
 
     /// Rules on a row: about this graph, or the one that it names, which is in the folder if that is needed.
@@ -152,41 +121,39 @@ impl Claims {
         folder: Option<PathBuf>,
     ) -> PyResult<(Graph, Decided, Said)> {
         let found = &self.0[row];
-        let claim = claims::claim(found);
-        let claim = claim.map_err(|error| InputError::new_err(error.to_string()))?;
+        let claim = claims::claim(found).map_err(of_row)?;
         let input = match graph {
             Some(graph) => Arc::clone(&graph.0),
             None => {
-                let named = work::briefly(py, || {
-                    claims::graph(&claim.graph, folder.as_deref(), &|_| None)
-                })?;
-                Arc::new(named.map_err(|error| of_any(&error.into()))?)
+                let named = work::briefly(py, || claim.graph(folder.as_deref(), &|_| None))?;
+                Arc::new(named.map_err(of_row)?)
             }
         };
-        let wanted = wanted.of_model(claim.model.name());
+        let wanted = wanted.of_model(claim.model().name());
         let (job, line) = (Job::new(py)?, found.line);
         let options = wanted.options(viewcert::Known::default(), job.watch());
         let options = options.map_err(InputError::new_err)?;
         let (start, asked) = (Instant::now(), Arc::clone(&input));
-        let decided = job.run(py, move || viewcert::decide(&asked.graph, &options))?;
-        let exact = decided.map_err(|error| of_deciding(&error))?;
-        let (nodes, edges) = (input.graph.nodes(), input.graph.edges().len());
+        let decided = job.run(py, move || claims::ruled(&claim, &asked, &options))?;
+        let (ruling, exact) = decided.map_err(|error| of_deciding(&error))?;
         let ruled = Ruled {
             number: row + 1,
             line,
-            ruling: claims::rule(&claim, nodes, edges, &exact),
+            ruling,
             input: (*input).clone(),
             exact,
             certificate: None,
         };
-        let said = said(
-            |out| rulings::json(out, &ruled),
-            |out| rulings::text(out, &ruled),
-        );
+        let said = said(|out| ruled.write_json(out), |out| ruled.write_text(out));
         let said = said.map_err(|error| of_any(&error))?;
         let decided = Decided::new(Arc::clone(&input), ruled.exact, &wanted, start.elapsed());
         Ok((Graph(input), decided, said))
     }
+}
+
+/// Why a row has no claim, or no graph.
+fn of_row(BadRow(why): BadRow) -> PyErr {
+    InputError::new_err(why)
 }
 
 /// A matrix of the literature by its name.
@@ -222,22 +189,11 @@ pub(crate) fn singular_value(
         )));
     }
     let place = matrix.place(input.graph.nodes());
-    let claim = norm.map(|norm| FloatClaim {
-        line: 0,
-        name: None,
-        model: centres.model(),
-        determined: None,
-        rank: None,
-        components: None,
-        sigma: None,
-        matrix: Some(matrix),
-        norm: Some(norm),
-    });
     let job = Job::new(py)?;
     let stop = job.watch();
     let work = move || {
         let at = (&*centres, &*here);
-        sigma(matrix, &input.graph, at, claim.as_ref(), &stop)
+        sigma(matrix, &input.graph, at, (norm.as_ref(), None), &stop)
     };
     let found = job.run(py, work)?;
     let found = found.map_err(of_sigma)?;
@@ -274,7 +230,8 @@ pub(crate) fn audit_at_cameras(py: Python<'_>, at: &AtCameras, table: &str) -> P
             let asked = claim.sigma.as_ref().and(claim.matrix);
             let found = asked.map(|matrix| {
                 let at = (&*centres, &*here);
-                sigma(matrix, &input.graph, at, Some(claim), &stop)
+                let bounds = (claim.norm.as_ref(), claim.sigma.as_ref());
+                sigma(matrix, &input.graph, at, bounds, &stop)
             });
             let found = found.transpose()?;
             let ruling = rule(claim, &here, found.as_ref());

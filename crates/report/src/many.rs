@@ -21,11 +21,12 @@ pub enum Format {
 }
 
 /// The columns of comma-separated values.
-const COLUMNS: [&str; 10] = [
+const COLUMNS: [&str; 11] = [
     "name",
     "nodes",
     "density_percent",
     "edges",
+    "model",
     "verdict",
     "strength",
     "components",
@@ -131,6 +132,7 @@ impl Table {
                         &nodes,
                         &percent,
                         &edges,
+                        verdict.model.name(),
                         words,
                         &strength,
                         &components,

@@ -8,12 +8,12 @@ use std::io::Write;
 use std::path::PathBuf;
 use viewcert::decide;
 use viewcert::decide::Value;
-use viewcert_audit::{AuditError, Method, Options, TOLERANCE};
+use viewcert_audit::{Options, TOLERANCE};
 use viewcert_cli::InputArguments;
 use viewcert_formats::NamedGraph;
 use viewcert_formats::csv;
 use viewcert_lab_studies::study;
-use viewcert_lab_studies::study::{Errors, Populations};
+use viewcert_lab_studies::study::{Errors, Method, Populations, StudyError};
 use viewcert_report::counted;
 use viewcert_session::Session;
 use viewcert_session::exit::{GOOD, TooLarge};
@@ -30,8 +30,8 @@ pub struct Arguments {
     /// Smallest eigenvalue of J^T J above which floating point says finite solvable.
     #[arg(long, value_name = "T", default_value_t = TOLERANCE)]
     tolerance: f64,
-    /// How floating point gets at the smallest eigenvalue of J^T J: auto, dense, gram or sparse.
-    #[arg(long, default_value_t = Method::Auto)]
+    /// How floating point gets at the smallest eigenvalue of J^T J: dense, gram or sparse.
+    #[arg(long, default_value_t = Method::Dense)]
     method: Method,
     /// Seed of all random cameras.
     #[arg(long, default_value_t = 1)]
@@ -50,7 +50,6 @@ impl Arguments {
     fn options(&self) -> Options {
         Options {
             tolerance: self.tolerance,
-            method: self.method,
             seed: self.seed,
         }
     }
@@ -161,7 +160,12 @@ fn add(
         .seed(arguments.seed)
         .watch(session.watch());
     let exact = decide::decide(&input.graph, &exact).with_context(name)?;
-    let values = study::eigenvalues(&input.graph, &arguments.options(), 0..arguments.draws);
+    let values = study::eigenvalues(
+        &input.graph,
+        &arguments.options(),
+        arguments.method,
+        0..arguments.draws,
+    );
     populations.add(
         exact.value != Value::NotFiniteSolvable,
         &values.map_err(failed).with_context(name)?,
@@ -170,9 +174,9 @@ fn add(
 }
 
 /// Why doubles have no answer, as the session's exit codes know it.
-fn failed(error: AuditError) -> anyhow::Error {
+fn failed(error: StudyError) -> anyhow::Error {
     match error {
-        AuditError::TooLarge { .. } => TooLarge(error.to_string()).into(),
+        StudyError::TooLarge(..) => TooLarge(error.to_string()).into(),
         other => other.into(),
     }
 }

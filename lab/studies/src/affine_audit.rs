@@ -5,16 +5,15 @@
 //! smallest singular value is above a tolerance, or if MATLAB's `rank` is 8 n. What is true is
 //! decided by counting (Theorem 13.2 of docs/theory.md).
 
+use crate::dense::{matlab_rank, singular};
 use crate::formulation::affine::{AffineCamera, matrix, size};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use std::ops::Range;
 use viewcert::graph::Graph;
-use viewcert_audit::AuditError;
-use viewcert_audit::cameras::uniform;
-use viewcert_audit::dense::{matlab_rank, singular};
-use viewcert_audit::doubles::Doubles;
+use viewcert_audit::linear::Doubles;
+use viewcert_audit::{AuditError, uniform};
 
 /// The tolerance of the published demonstration, on the smallest singular value.
 pub const TOLERANCE: f64 = 1e-6;

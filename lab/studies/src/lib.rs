@@ -3,6 +3,7 @@
 
 pub mod affine_audit;
 pub mod conditions;
+pub mod dense;
 pub mod formulation;
 pub mod paper_components;
 pub mod published;

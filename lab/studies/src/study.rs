@@ -1,23 +1,107 @@
 //! Many draws: how often a tolerance misjudges.
 
+use crate::dense::{Columns, least_eigenvalue, singular};
 use rayon::prelude::*;
+use std::fmt;
 use std::ops::Range;
+use std::str::FromStr;
+use viewcert::geometry::jacobian::augmented_size;
 use viewcert::graph::Graph;
-use viewcert_audit::{AuditError, Options, decide};
+use viewcert_audit::{AuditError, Options, augmented, decide};
+
+/// Largest J of the dense methods, in entries of 8 bytes: 1 GiB.
+const MAX_DENSE: usize = 1 << 27;
+
+/// How the smallest eigenvalue of J^T J is computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// All singular values of J as a dense matrix.
+    Dense,
+    /// All eigenvalues of J^T J, formed as a dense matrix: what the published code hands to its eigenvalue solver.
+    /// Rounding in J^T J hides eigenvalues below eps |J|^2.
+    Gram,
+    /// The smallest singular value, by inverse iteration, as `verify audit` does.
+    Sparse,
+}
+
+impl Method {
+    const ALL: [Self; 3] = [Self::Dense, Self::Gram, Self::Sparse];
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Dense => "dense",
+            Self::Gram => "gram",
+            Self::Sparse => "sparse",
+        })
+    }
+}
+
+/// A word that is not the name of a method.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the methods are dense, gram and sparse")]
+pub struct UnknownMethod;
+
+impl FromStr for Method {
+    type Err = UnknownMethod;
+
+    fn from_str(name: &str) -> Result<Self, UnknownMethod> {
+        let named = |method: &Self| method.to_string() == name;
+        Self::ALL.into_iter().find(named).ok_or(UnknownMethod)
+    }
+}
+
+/// Why there are no eigenvalues.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum StudyError {
+    /// J is too large for the dense methods.
+    #[error("the dense methods would need {0} x {1} doubles for J alone; use --method sparse")]
+    TooLarge(usize, usize),
+    /// Floating point has no answer.
+    #[error(transparent)]
+    Audit(#[from] AuditError),
+}
 
 /// The smallest eigenvalues of J^T J at the given draws.
 ///
 /// # Errors
-/// See [`AuditError`].
+/// See [`StudyError`].
 pub fn eigenvalues(
     graph: &Graph,
     options: &Options,
+    method: Method,
     draws: Range<u64>,
-) -> Result<Vec<f64>, AuditError> {
-    draws
-        .into_par_iter()
-        .map(|draw| Ok(decide(graph, options, draw)?.eigenvalue))
-        .collect()
+) -> Result<Vec<f64>, StudyError> {
+    let (rows, columns) = augmented_size(graph);
+    if method != Method::Sparse && rows.saturating_mul(columns) > MAX_DENSE {
+        return Err(StudyError::TooLarge(rows, columns));
+    }
+    if graph.edges().is_empty() {
+        return Err(AuditError::NoPairs.into());
+    }
+    let one = |draw| {
+        let dense = || {
+            let mut dense: Columns = vec![vec![0.0; rows]; columns];
+            for (r, row) in augmented(graph, options.seed, draw).iter().enumerate() {
+                row.iter().for_each(|&(column, x)| dense[column][r] = x);
+            }
+            dense
+        };
+        Ok(match method {
+            Method::Sparse => decide(graph, options, draw)?.eigenvalue(),
+            Method::Dense => singular(dense(), false)?.0[columns - 1].powi(2),
+            Method::Gram => {
+                let dense = dense();
+                let times = |a: &Vec<f64>, b: &Vec<f64>| a.iter().zip(b).map(|(x, y)| x * y).sum();
+                let gram = dense
+                    .iter()
+                    .map(|a| dense.iter().map(|b| times(a, b)).collect());
+                least_eigenvalue(gram.collect())?
+            }
+        })
+    };
+    draws.into_par_iter().map(one).collect()
 }
 
 /// Eigenvalues of graphs whose exact verdict is known.

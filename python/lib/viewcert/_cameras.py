@@ -319,7 +319,7 @@ class AtCameras:
         InputError
             A matrix of another model, or centres alone where cameras are needed.
         TooLarge
-            More than 1,000 projective or 4,000 calibrated cameras.
+            More than 300 projective or 1,200 calibrated cameras.
 
         Examples
         --------

@@ -14,7 +14,7 @@ from ._graph import Graph, Path, as_graph
 from ._kept import Kept
 from ._question import wanted
 from ._tables import json_of, rows_of
-from ._types import Decided, FloatMethod, N, RulingWord
+from ._types import Decided, N, RulingWord
 from ._verdict import Verdict, verify
 
 #: From the model that determines least to the one that determines most.
@@ -154,8 +154,6 @@ class Audit(_Said):
         How many powers of ten lie between the eigenvalue and the tolerance.
     float_components : int, optional
         How many components floating point finds.
-    method : str
-        How it got at the eigenvalue.
     draws, misjudged : int
         How many draws of cameras there were, and at how many of them its verdict was wrong.
     reason : str, optional
@@ -169,7 +167,6 @@ class Audit(_Said):
     smallest_singular_value: float
     margin_decades: Optional[float]
     float_components: Optional[int]
-    method: str
     draws: int
     misjudged: int
     reason: Optional[str]
@@ -187,7 +184,6 @@ def audit(
     graph: Any,
     *,
     tolerance: float = _TOLERANCE,
-    method: FloatMethod = "auto",
     draws: int = 1,
     seed: int = 1,
 ) -> Audit:
@@ -199,17 +195,10 @@ def audit(
         As of :func:`verify`, or a verdict of the projective model.
     tolerance : float
         The smallest eigenvalue of J^T J above which floating point says finite solvable.
-    method : {'auto', 'dense', 'gram', 'sparse'}
-        How it gets at that eigenvalue; see docs/audit.md.
     draws : int
         At how many random sets of cameras.
     seed : int
         The seed of all random cameras.
-
-    Raises
-    ------
-    TooLarge
-        If the method would need too much memory.
 
     Examples
     --------
@@ -218,13 +207,12 @@ def audit(
     >>> found.agree, found.misjudged
     (True, 0)
     """
-    one_of("method", method, ("auto", "dense", "gram", "sparse"))
     draws = whole("draws", draws, 1, 2**32 - 1)
     seed = whole("seed", seed, 0, 2**64 - 1)
     verdict = graph if isinstance(graph, Verdict) else verify(graph, model="projective", seed=seed)
     if verdict.model != "projective":
         raise InputError(f"audit: the float test is of the projective model, not of the {verdict.model} one")
-    said = _native.audit(_found(verdict), tolerance, method, draws, seed)
+    said = _native.audit(_found(verdict), tolerance, draws, seed)
     found = json.loads(said[0])
     doubles = found["float"]
     return Audit(
@@ -236,7 +224,6 @@ def audit(
         smallest_singular_value=doubles["smallest_singular_value"],
         margin_decades=doubles["margin_decades"],
         float_components=doubles["components"],
-        method=doubles["method"],
         draws=found["draws"],
         misjudged=found["misjudged"],
         reason=found["reason"],
@@ -281,7 +268,8 @@ def audit_claims(
     Parameters
     ----------
     table : path, data frame, mapping, or iterable of mappings
-        A file of CSV or JSON, or rows. Columns are ``graph`` (a graph, a line of graph6, or a path), ``file`` or
+        A file of CSV or JSON, or rows. Columns are ``graph`` (a graph, a line of graph6, a path, or as
+        ``name``), ``graph6``, ``file`` or
         ``name`` (in `graphs`), and what is claimed: ``verdict``, ``components``, ``solutions``, ``rank``,
         ``model``; ``nodes``, ``edges`` and ``sha256`` say which graph is meant. See docs/audit.md.
     graphs : path or mapping, optional
@@ -347,10 +335,10 @@ def audit_claims(
         try:
             graph = given.get(number)
             if graph is None and named:
-                called = claims.name(number)
-                if called is not None and called not in named:
+                called, is_name = claims.name(number) or (None, False)
+                if is_name and called not in named:
                     raise InputError(f"unknown graph {called!r}: `graphs` has none of that name")
-                graph = None if called is None else named[called]
+                graph = named.get(called)
             found.append(_ruled(claims, number, asked, graph, folder))
         except Error as error:
             if errors == "raise":

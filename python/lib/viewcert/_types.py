@@ -58,8 +58,6 @@ Place = Literal["coincident", "collinear", "coplanar"]
 #: What came of a claim.
 RulingWord = Literal["confirmed", "refuted", "not decidable"]
 
-#: How floating point gets at the smallest eigenvalue.
-FloatMethod = Literal["auto", "dense", "gram", "sparse"]
 
 #: Matrices at given cameras.
 MatrixName = Literal["J_P", "J", "N", "R"]
