@@ -26,12 +26,12 @@ const COLUMNS: [&str; 11] = [
     "nodes",
     "density_percent",
     "edges",
-    "model",
     "verdict",
     "strength",
     "components",
     "seconds",
     "solutions",
+    "model",
     "error",
 ];
 
@@ -132,12 +132,12 @@ impl Table {
                         &nodes,
                         &percent,
                         &edges,
-                        verdict.model.name(),
                         words,
                         &strength,
                         &components,
                         &seconds,
                         &solutions,
+                        verdict.model.name(),
                         "",
                     ],
                 )?;
