@@ -1,6 +1,7 @@
 //! How graphs are read: the options that all commands with graphs share.
 
 use anyhow::{Context, Error, Result, bail, ensure};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use rayon::prelude::*;
 use std::io::Write;
@@ -8,7 +9,6 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use viewcert::watch::Watch;
 use viewcert_formats::colmap::{Database, Pipeline};
-use viewcert_formats::documents::Document;
 use viewcert_formats::{
     Columns, Decimal, Format, ListOptions, NamedGraph, ReadError, ReadOptions, TrackOptions,
     read_graphs,
@@ -28,8 +28,8 @@ pub struct InputArguments {
     /// images or nodes, like source,target or image1,image2. Everything else is refused, with what was
     /// seen. `--format edges` reads the first two fields of every line all the same.
     /// The first line of every report says how the file was read.
-    #[arg(long, value_enum, help_heading = READING, hide = true)]
-    format: Option<FormatName>,
+    #[arg(long, value_parser = formats(), help_heading = READING, hide = true)]
+    format: Option<Format>,
     /// The columns of a table that hold the pairs, by name or by number, and perhaps that of the
     /// weights: img1,img2 or 2,3 or img1,img2,score.
     #[arg(long, value_name = "A,B[,W]", help_heading = READING, hide = true)]
@@ -78,38 +78,13 @@ enum PipelineName {
     Global,
 }
 
-#[derive(Clone, Copy, ValueEnum)]
-enum FormatName {
-    /// One pair a line: the first two fields, whatever follows; one field alone is a camera.
-    #[value(alias = "edge-list")]
-    Edges,
-    /// One graph a line.
-    Graph6,
-    /// One graph a line, incremental ones among them.
-    Sparse6,
-    /// Adjacency matrix, MATLAB 5.
-    Matlab,
-    /// Adjacency matrix, MatrixMarket coordinates.
-    MatrixMarket,
-    /// Two names of images a line and nothing else: COLMAP's lists of matches, pairs of hloc.
-    #[value(alias = "hloc-pairs")]
-    MatchList,
-    /// Relative poses of GLOMAP, 9 fields a line.
-    Glomap,
-    /// EGs.txt of 1DSfM, 14 fields a line; cameras are called by their numbers.
-    #[value(name = "1dsfm")]
-    OneDsfm,
-    /// The first field of every line with each of the others: pairs and stars of OpenMVG, adjacency
-    /// lists.
-    #[value(alias = "adjacency-list")]
-    OpenmvgPairs,
-    /// Matches of features as COLMAP imports them: two names, and below them two numbers a line.
-    RawMatches,
-    /// Pose graph of g2o.
-    G2o,
-    /// Graph in XML.
-    #[value(name = "graphml")]
-    GraphMl,
+/// The names of the formats, and what they read.
+fn formats() -> impl TypedValueParser<Value = Format> {
+    let values = Format::ALL.map(|(_, names, help)| {
+        let aliases = names[1..].iter().copied();
+        PossibleValue::new(names[0]).aliases(aliases).help(help)
+    });
+    PossibleValuesParser::new(values).try_map(|name| name.parse::<Format>())
 }
 
 impl InputArguments {
@@ -185,20 +160,7 @@ impl InputArguments {
     /// The options of the readers, but for tracks.
     pub(super) fn read_options(&self) -> ReadOptions {
         ReadOptions {
-            format: self.format.map(|format| match format {
-                FormatName::Edges => Format::Edges,
-                FormatName::Graph6 => Format::Graph6,
-                FormatName::Sparse6 => Format::Sparse6,
-                FormatName::Matlab => Format::Matlab,
-                FormatName::MatrixMarket => Format::MatrixMarket,
-                FormatName::MatchList => Format::MatchList,
-                FormatName::Glomap => Format::Glomap,
-                FormatName::OneDsfm => Format::OneDsfm,
-                FormatName::OpenmvgPairs => Format::Document(Document::Stars),
-                FormatName::RawMatches => Format::Document(Document::RawMatches),
-                FormatName::G2o => Format::Document(Document::G2o),
-                FormatName::GraphMl => Format::Document(Document::GraphMl),
-            }),
+            format: self.format,
             variable: self.variable.clone(),
             pipeline: self.pipeline.map(|pipeline| match pipeline {
                 PipelineName::Incremental => Pipeline::Incremental,

@@ -334,9 +334,6 @@ pub enum Problem {
     /// Something in a MatrixMarket file that is not as it has to be.
     #[error("MatrixMarket: {0}")]
     MatrixMarket(String),
-    /// A MATLAB file of level 4.
-    #[error("a MATLAB file of version 4 is not read here")]
-    MatlabFour,
     /// A MATLAB file of level 7.3, which is HDF5.
     #[error("HDF5, as MATLAB writes it in version 7.3, is not read here")]
     MatlabHdf5,
@@ -541,7 +538,6 @@ impl Problem {
             Self::MatrixMarket(_) => {
                 "write it again as `%%MatrixMarket matrix coordinate pattern symmetric`"
             }
-            Self::MatlabFour => "save it in MATLAB with -v7 or -v6",
             Self::MatlabHdf5 => {
                 "in Python: viewcert.verify(h5py.File('FILE')['A'][:]); or save it in MATLAB with -v7"
             }

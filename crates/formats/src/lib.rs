@@ -31,7 +31,6 @@ mod read_as;
 mod recognise;
 pub mod sparse6;
 pub mod tracks;
-mod variables;
 pub mod whole;
 
 pub use edge_list::columns::{Columns, ListOptions, NoColumns};

@@ -13,14 +13,11 @@ use crate::edge_list::columns::ListOptions;
 use crate::edge_list::fields::is_number;
 use crate::edge_list::text;
 use crate::error::{Fault, Place, Problem};
-use crate::matrix::{List, Matrix, Places, are_pairs};
+use crate::matrix::{self, Entry, are_pairs};
 use crate::read_as::Parsed;
 
 /// What every file begins with; upper and lower case are the same.
 pub const HEADER: &str = "%%MatrixMarket";
-
-/// What it is called in reports.
-const FORMAT: &str = "MatrixMarket matrix";
 
 /// The longest line that is read.
 const LINE_LIMIT: u64 = 1 << 20;
@@ -93,10 +90,8 @@ pub(super) fn read_with(input: impl Read, options: &ListOptions) -> Result<Parse
 struct File {
     kind: Option<Kind>,
     size: Option<Size>,
-    /// Rows and columns of entries, in both triangles.
-    entries: Vec<(u32, u32)>,
-    /// Their values, unless only the pattern is given.
-    values: Vec<f64>,
+    /// In both triangles.
+    entries: Vec<Entry>,
     seen: u64,
     /// Where the next value of an array stands.
     next: (u32, u32),
@@ -168,19 +163,13 @@ impl File {
                 return Ok(());
             }
         }
-        self.push(kind, row, column, value);
+        self.entries.push((row, column, value));
         if kind.symmetry != Symmetry::General && row != column {
             let skew = kind.symmetry == Symmetry::Skew;
-            self.push(kind, column, row, if skew { -value } else { value });
+            let value = if skew { -value } else { value };
+            self.entries.push((column, row, value));
         }
         Ok(())
-    }
-
-    fn push(&mut self, kind: Kind, row: u32, column: u32, value: f64) {
-        self.entries.push((row, column));
-        if kind.values != Values::Pattern {
-            self.values.push(value);
-        }
     }
 
     /// The graph, after the last line.
@@ -194,32 +183,19 @@ impl File {
                 "{promised} entries are promised, and {seen} are there"
             )));
         }
-        let value = |at: usize| self.values.get(at).copied().unwrap_or(1.0);
-        if size.rows != size.columns {
-            let mut list = List::new(size.shape(), options);
-            for (at, &(row, column)) in self.entries.iter().enumerate() {
-                list.entry(row, column, value(at))?;
-            }
-            let mut parsed = list.graph()?;
-            parsed.read.format = FORMAT.into();
-            return Ok(parsed);
+        let (mut parsed, again) = if size.rows == size.columns {
+            matrix::graph(size.rows, self.entries, options)?
+        } else {
+            (matrix::list(size.rows, &self.entries, options)?, 0)
+        };
+        parsed.read.format = "MatrixMarket matrix".into();
+        if size.rows == size.columns {
+            // Of a symmetric matrix both triangles were filled in.
+            let symmetric = kind.symmetry != Symmetry::General;
+            parsed.read.merged = if symmetric { again / 2 } else { again };
+            parsed.notes.extend(crate::merged(parsed.read.merged));
         }
-        let (matrix, again) =
-            Matrix::of_entries(size.rows, Places::MATLAB, &self.entries, value, options)?;
-        let mut parsed = matrix.graph()?;
-        parsed.read.format = FORMAT.into();
-        // Of a symmetric matrix both triangles were filled in.
-        let symmetric = kind.symmetry != Symmetry::General;
-        let again = if symmetric { again / 2 } else { again };
-        parsed.read.merged = again;
-        parsed.notes.extend(crate::merged(again));
         Ok(parsed)
-    }
-}
-
-impl Size {
-    fn shape(self) -> [u64; 2] {
-        [self.rows.into(), self.columns.into()]
     }
 }
 
@@ -308,14 +284,14 @@ impl Kind {
                 ));
             }
         };
-        let is_list =
-            self.array && self.symmetry == Symmetry::General && are_pairs([rows, columns]);
-        if rows != columns && !is_list {
-            return Err(Problem::NotSquare(format!("{rows} x {columns}")));
-        }
         let (Ok(height), Ok(width)) = (u32::try_from(rows), u32::try_from(columns)) else {
             return Err(Problem::TooManyNodes);
         };
+        let is_list =
+            self.array && self.symmetry == Symmetry::General && are_pairs([height, width]);
+        if rows != columns && !is_list {
+            return Err(Problem::NotSquare(format!("{rows} x {columns}")));
+        }
         let entries = entries.unwrap_or(match self.symmetry {
             Symmetry::General => rows * columns,
             Symmetry::Symmetric => rows * (rows + 1) / 2,

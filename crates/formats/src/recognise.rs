@@ -149,7 +149,6 @@ const fn foreign(what: &'static str, advice: &'static str) -> Problem {
 
 const PAIRS: &str = "write one pair a line: the names of two cameras and nothing else";
 const COLMAP: &str = "it is one file of a COLMAP model: give the folder that holds it, with --tracks, or COLMAP's database";
-const TORO: &str = "write the two ids of every edge: awk '/^EDGE/ { print $2, $3 }' FILE";
 const DIMACS: &str = "write the two nodes of every edge: awk '/^[ea] / { print $2, $3 }' FILE";
 const DIGRAPH6: &str = "forget the directions with nauty's `underlyingg`, which writes graph6";
 const UTF16: &str = "save it as UTF-8 (in Windows: `Save as`, encoding UTF-8)";
@@ -165,63 +164,43 @@ macro_rules! networkx {
     };
 }
 
-/// Files that begin with these bytes, whatever follows.
-const MAGIC: [(&[u8], &str, &str); 18] = [
-    (
-        b"\x93NUMPY",
-        "an array of NumPy",
-        "in Python: viewcert.verify(numpy.load('FILE')), an adjacency matrix or two columns of pairs",
-    ),
-    (
-        b"PK\x03\x04",
-        "a ZIP archive, as NumPy (.npz) and many programs write",
-        "in Python: viewcert.verify(scipy.sparse.load_npz('FILE')) or viewcert.verify(numpy.load('FILE')['A']); \
-         other archives: unpack them",
-    ),
-    (b"PK\x05\x06", "an empty ZIP archive", PAIRS),
-    (b"\x89PNG\r\n\x1a\n", "a PNG image", PAIRS),
-    (b"\xff\xd8\xff", "a JPEG image", PAIRS),
-    (b"GIF8", "a GIF image", PAIRS),
-    (b"II*\0", "a TIFF image", PAIRS),
-    (b"MM\0*", "a TIFF image", PAIRS),
-    (b"RIFF", "a RIFF file (an image or sound)", PAIRS),
-    (b"%PDF-", "a PDF document", PAIRS),
-    (b"7z\xbc\xaf\x27\x1c", "a 7-Zip archive", "unpack it"),
-    (b"\x7fELF", "a program (ELF)", PAIRS),
-    (
-        b"PAR1",
-        "a Parquet table",
-        "in Python: viewcert.verify(pandas.read_parquet('FILE'))",
-    ),
-    (
-        b"ARROW1",
-        "an Arrow table",
-        "in Python: viewcert.verify(pandas.read_feather('FILE'))",
-    ),
-    (
-        b">>planar_code",
-        "planar code",
-        "write graph6 in its place (plantri: option -g)",
-    ),
-    (
-        b">>edge_code",
-        "edge code",
-        "write graph6 in its place (plantri: option -g)",
-    ),
-    (b">>digraph6<<", "digraph6 (directed graphs)", DIGRAPH6),
-    (
-        b"version https://git-lfs",
-        "a pointer to a file in Git LFS, not the file itself",
-        "fetch it with `git lfs pull`",
-    ),
-];
+/// Files that are not read: the first bytes or words, what they are, and what to do; by bytes above the
+/// blank line.
+const FOREIGN: &str = include_str!("foreign.tsv");
+
+/// The first of the files above or below the blank line whose first bytes or words `is` finds.
+fn known(by_words: bool, is: impl Fn(&'static str) -> bool) -> Option<Problem> {
+    let (bytes, words) = FOREIGN.split_once("\n\n")?;
+    let rows = if by_words { words } else { bytes };
+    rows.lines().skip(usize::from(!by_words)).find_map(|row| {
+        let (start, rest) = row.split_once('\t')?;
+        let (what, advice) = rest.split_once('\t')?;
+        let advice = match advice {
+            "pairs" => PAIRS,
+            "colmap" => COLMAP,
+            other => other,
+        };
+        is(start).then(|| foreign(what, advice))
+    })
+}
+
+/// Whether bytes begin with others, of which `\xHH` stands for one.
+fn begins_with(head: &[u8], start: &str) -> bool {
+    let mut escaped = start.split("\\x");
+    let plain = escaped.next().unwrap_or_default().as_bytes();
+    let others = escaped.flat_map(|part| {
+        let (byte, plain) = part.split_at(2);
+        let byte = u8::from_str_radix(byte, 16).expect("two digits");
+        std::iter::once(byte).chain(plain.bytes())
+    });
+    let start: Vec<u8> = plain.iter().copied().chain(others).collect();
+    head.starts_with(&start)
+}
 
 /// What is no text, by its first bytes.
 fn binary(head: &[u8]) -> Option<Problem> {
-    for (magic, what, advice) in MAGIC {
-        if head.starts_with(magic) {
-            return Some(foreign(what, advice));
-        }
+    if let Some(problem) = known(false, |start| begins_with(head, start)) {
+        return Some(problem);
     }
     if head.starts_with(b"\xff\xfe") || head.starts_with(b"\xfe\xff") {
         return Some(foreign("text in UTF-16", UTF16));
@@ -248,75 +227,10 @@ fn binary(head: &[u8]) -> Option<Problem> {
 /// No name has more words.
 const MOST_WORDS: usize = 8;
 
-/// First words of texts, with one blank between them, and what they are.
-const FIRST_WORDS: [(&str, &str, &str); 27] = [
-    (
-        "*vertices",
-        "a Pajek network",
-        networkx!("networkx.Graph(networkx.read_pajek('FILE'))"),
-    ),
-    (
-        "*Vertices",
-        "a Pajek network",
-        networkx!("networkx.Graph(networkx.read_pajek('FILE'))"),
-    ),
-    (
-        "*Network",
-        "a Pajek network",
-        networkx!("networkx.Graph(networkx.read_pajek('FILE'))"),
-    ),
-    ("*Partition", "a Pajek partition", PAIRS),
-    ("VERTEX2", "a TORO pose graph", TORO),
-    ("EDGE2", "a TORO pose graph", TORO),
-    ("VERTEX3", "a TORO pose graph", TORO),
-    ("EDGE3", "a TORO pose graph", TORO),
-    ("LEDA.GRAPH", "a LEDA graph", PAIRS),
-    ("@nodes", "a LEMON graph", PAIRS),
-    ("# Rig calib list", "COLMAP's rigs.txt", COLMAP),
-    ("# Frame list with one", "COLMAP's frames.txt", COLMAP),
-    (
-        "#index = ",
-        "coords.txt of 1DSfM (features of images)",
-        "give EGs.txt, which lies beside it",
-    ),
-    (
-        "# Created by Octave",
-        "a text file of Octave",
-        "in Octave: save -v7 graph.mat A",
-    ),
-    ("<Compressed Sparse", PRINTED, PRINTED_ADVICE),
-    ("<COOrdinate sparse", PRINTED, PRINTED_ADVICE),
-    ("<gexf", GEXF, GEXF_ADVICE),
-    (
-        "graph [",
-        "a graph in GML",
-        networkx!("networkx.read_gml('FILE')"),
-    ),
-    (
-        "Creator \"",
-        "a graph in GML",
-        networkx!("networkx.read_gml('FILE')"),
-    ),
-    ("graph {", DOT, DOT_ADVICE),
-    ("strict graph", DOT, DOT_ADVICE),
-    ("digraph", DOT, DOT_ADVICE),
-    ("strict digraph", DOT, DOT_ADVICE),
-    ("/* Created by igraph", DOT, DOT_ADVICE),
-    ("ply format", "a PLY file of points", PAIRS),
-    ("dl n", "a UCINET DL file", PAIRS),
-    (
-        "sep=",
-        "a table with a line `sep=` for Excel",
-        "delete that line",
-    ),
-];
-
 const PRINTED: &str = "a sparse matrix of SciPy as it is printed";
 const PRINTED_ADVICE: &str = "in Python: scipy.io.mmwrite('graph.mtx', A)";
 const GEXF: &str = "a graph in GEXF";
 const GEXF_ADVICE: &str = networkx!("networkx.read_gexf('FILE')");
-const DOT: &str = "a graph in DOT";
-const DOT_ADVICE: &str = networkx!("networkx.Graph(networkx.nx_pydot.read_dot('FILE'))");
 
 /// A text by its first words, whose letters count: names of images begin in any way.
 fn by_first_words(head: &[u8]) -> Option<Problem> {
@@ -324,10 +238,7 @@ fn by_first_words(head: &[u8]) -> Option<Problem> {
     let text = text.trim_start();
     let first: Vec<&str> = text.split_whitespace().take(MOST_WORDS).collect();
     let first = first.join(" ");
-    let found = FIRST_WORDS
-        .iter()
-        .find(|(words, ..)| first.starts_with(words))
-        .map(|&(_, what, advice)| foreign(what, advice));
+    let found = known(true, |words| first.starts_with(words));
     let tracks = || tracks::by_first_words(head).map(of_tracks);
     found
         .or_else(tracks)

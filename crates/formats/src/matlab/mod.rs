@@ -12,33 +12,63 @@
 //! with what has been read, and deflated data can hold at most 1032 times
 //! their own length, which is checked first.
 
+use std::borrow::Cow;
 use std::collections::BTreeSet;
+use std::io::Read;
+
+use flate2::bufread::ZlibDecoder;
 
 use crate::edge_list::columns::ListOptions;
 use crate::error::{Fault, Place, Problem};
-use crate::matrix::{List, Matrix, Places, are_pairs};
+use crate::matrix::{self, Entry, are_pairs};
 use crate::read_as::Parsed;
-use crate::variables::{Candidate, choose, chosen_note};
 use viewcert::graph::Graph;
-
-mod element;
-mod matrix;
-
-use element::{COMPRESSED, Elements, MATRIX, Source, malformed};
-use matrix::Header;
 
 const HEADER_LENGTH: usize = 128;
 const HDF5_SIGNATURE: &[u8] = b"\x89HDF\r\n\x1a\n";
 
+/// Types of elements.
+const MATRIX: u32 = 14;
+const COMPRESSED: u32 = 15;
+/// Deflate codes at most 258 bytes in two bits.
+const DEFLATE_LIMIT: u64 = 1032;
+/// What comes before the values of a variable has fewer bytes.
+const DESCRIPTION: u64 = 1 << 14;
+
+/// Classes of variables by their numbers from 1.
+const CLASSES: [&str; 17] = [
+    "cell array",
+    "structure",
+    "object",
+    "character array",
+    "sparse",
+    "double",
+    "single",
+    "int8",
+    "uint8",
+    "int16",
+    "uint16",
+    "int32",
+    "uint32",
+    "int64",
+    "uint64",
+    "function handle",
+    "opaque object",
+];
+const SPARSE: u8 = 5;
+const LAST_NUMERIC: u8 = 15;
+const OPAQUE: u8 = 17;
+const COMPLEX: u32 = 0x800;
+const LOGICAL: u32 = 0x200;
+
 /// Whether the first bytes of a file, 128 or more of them, are those of a
-/// MATLAB file of any version.
+/// MATLAB file of version 5 or 7.3.
 pub fn is_matlab(head: &[u8]) -> bool {
     version(head).is_some()
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Version {
-    Four,
     /// With the byte order.
     Five(ByteOrder),
     Hdf5,
@@ -56,65 +86,315 @@ fn version(head: &[u8]) -> Option<Version> {
         return Some(Version::Hdf5);
     }
     match head.get(124..HEADER_LENGTH) {
-        Some([_, 1, b'I', b'M']) => return Some(Version::Five(ByteOrder::Little)),
-        Some([1, _, b'M', b'I']) => return Some(Version::Five(ByteOrder::Big)),
-        Some([_, 2, b'I', b'M'] | [2, _, b'M', b'I']) => return Some(Version::Hdf5),
-        _ => {}
+        Some([_, 1, b'I', b'M']) => Some(Version::Five(ByteOrder::Little)),
+        Some([1, _, b'M', b'I']) => Some(Version::Five(ByteOrder::Big)),
+        Some([_, 2, b'I', b'M'] | [2, _, b'M', b'I']) => Some(Version::Hdf5),
+        _ => (head.starts_with(b"MATLAB 5.0 MAT-file")).then_some(Version::Five(ByteOrder::Little)),
     }
-    if head.starts_with(b"MATLAB 5.0 MAT-file") {
-        return Some(Version::Five(ByteOrder::Little));
-    }
-    is_version_four(head).then_some(Version::Four)
 }
 
-/// Version 4 has no signature: its header is five integers, the first of which
-/// is a code of decimal digits, the fourth a flag, the fifth a short length.
-fn is_version_four(head: &[u8]) -> bool {
-    let Some(words) = head.first_chunk::<20>() else {
-        return false;
-    };
-    let plausible = |number: fn([u8; 4]) -> u32| {
-        let mut fields = words.as_chunks::<4>().0.iter().map(|&bytes| number(bytes));
-        let mut next = || fields.next().unwrap_or(u32::MAX);
-        let (code, rows, columns, imaginary, name) = (next(), next(), next(), next(), next());
-        let digits = [code / 1000, code / 100 % 10, code / 10 % 10, code % 10];
-        digits[0] <= 4
-            && digits[1] == 0
-            && digits[2] <= 5
-            && digits[3] <= 2
-            && rows.max(columns) <= i32::MAX as u32
-            && imaginary <= 1
-            && (2..=64).contains(&name)
-    };
-    plausible(u32::from_le_bytes) || plausible(u32::from_be_bytes)
+impl ByteOrder {
+    fn u32(self, bytes: [u8; 4]) -> u32 {
+        match self {
+            Self::Little => u32::from_le_bytes(bytes),
+            Self::Big => u32::from_be_bytes(bytes),
+        }
+    }
 }
 
-/// One variable of a file, not yet read.
+fn malformed(what: &str) -> Problem {
+    Problem::Corrupt(what.to_owned())
+}
+
+fn cut_off() -> Problem {
+    Problem::Truncated("the data of a variable end early".to_owned())
+}
+
+/// The next element of `rest`: its type and its bytes. Small ones hold these in the tag; deflated ones are
+/// not padded.
+fn element<'a>(rest: &mut &'a [u8], order: ByteOrder) -> Result<(u32, &'a [u8]), Problem> {
+    let whole = *rest;
+    let (tag, body) = whole.split_first_chunk::<8>().ok_or_else(cut_off)?;
+    let [a, b, c, d, length @ ..] = *tag;
+    let kind = order.u32([a, b, c, d]);
+    let small = (kind >> 16) as usize;
+    if small > 0 {
+        *rest = body;
+        let data = whole[4..8].get(..small);
+        let data = data.ok_or_else(|| malformed("a small element is longer than four bytes"))?;
+        return Ok((kind & 0xffff, data));
+    }
+    let length = order.u32(length) as usize;
+    let data = body.get(..length).ok_or_else(|| {
+        let there = body.len();
+        Problem::Truncated(format!(
+            "a variable takes {length} bytes, {there} are there"
+        ))
+    })?;
+    let padded = match kind {
+        COMPRESSED => length,
+        _ => length.next_multiple_of(8),
+    };
+    *rest = body.get(padded..).unwrap_or_default();
+    Ok((kind, data))
+}
+
+/// One variable of a file: what it is, and the element that holds it.
 struct Variable<'a> {
-    header: Header,
-    /// The element that holds it.
+    name: String,
+    class: u8,
+    flags: u32,
+    /// Empty for opaque objects.
+    dimensions: Vec<u32>,
+    order: ByteOrder,
     kind: u32,
-    content: &'a [u8],
+    element: &'a [u8],
 }
 
-impl Candidate for Variable<'_> {
-    fn name(&self) -> &str {
-        &self.header.name
+impl<'a> Variable<'a> {
+    fn new(kind: u32, element: &'a [u8], order: ByteOrder) -> Result<Self, Problem> {
+        let mut variable = Self {
+            name: String::new(),
+            class: 0,
+            flags: 0,
+            dimensions: Vec::new(),
+            order,
+            kind,
+            element,
+        };
+        let content = variable.content(DESCRIPTION)?;
+        variable.describe(&mut &*content)?;
+        Ok(variable)
     }
 
-    fn describe(&self) -> String {
-        self.header.describe()
+    /// The first bytes of the variable, at most so many; deflated ones are inflated.
+    fn content(&self, most: u64) -> Result<Cow<'a, [u8]>, Problem> {
+        if self.kind == MATRIX {
+            return Ok(Cow::Borrowed(self.element));
+        }
+        let mut decoder = ZlibDecoder::new(self.element);
+        let mut inflated = |count: u64| -> Result<Vec<u8>, Problem> {
+            let mut bytes = Vec::new();
+            let read = decoder.by_ref().take(count).read_to_end(&mut bytes);
+            read.map_err(|error| match error.kind() {
+                std::io::ErrorKind::UnexpectedEof => cut_off(),
+                _ => Problem::Corrupt(format!("the deflated data of a variable: {error}")),
+            })?;
+            Ok(bytes)
+        };
+        let [a, b, c, d, length @ ..] = *inflated(8)?.first_chunk::<8>().ok_or_else(cut_off)?;
+        if self.order.u32([a, b, c, d]) != MATRIX {
+            return Err(malformed("a deflated element is not a variable"));
+        }
+        let length = u64::from(self.order.u32(length));
+        let available = self.element.len() as u64;
+        if length > DEFLATE_LIMIT * available {
+            return Err(Problem::Truncated(format!(
+                "a variable takes {length} bytes, which {available} deflated bytes cannot hold"
+            )));
+        }
+        let content = inflated(length.min(most))?;
+        if (content.len() as u64) < length.min(most) {
+            return Err(cut_off());
+        }
+        // What follows is the end, and the checksum.
+        if length <= most && !inflated(1)?.is_empty() {
+            return Err(malformed("deflated bytes follow the variable"));
+        }
+        Ok(Cow::Owned(content))
     }
 
-    fn numeric_shape(&self) -> Option<[u64; 2]> {
-        self.header.numeric_shape()
+    /// Takes in what stands before the values.
+    fn describe(&mut self, rest: &mut &[u8]) -> Result<(), Problem> {
+        let order = self.order;
+        let words = |bytes: &[u8]| -> Vec<u32> {
+            let (words, _) = bytes.as_chunks();
+            words.iter().map(|&word| order.u32(word)).collect()
+        };
+        let [flags, _] = words(element(rest, order)?.1)[..] else {
+            return Err(malformed("the flags of a variable are not two integers"));
+        };
+        (self.flags, self.class) = (flags, flags as u8);
+        if !(1..=OPAQUE).contains(&self.class) {
+            return Err(Problem::Corrupt(format!(
+                "a variable of class {}",
+                self.class
+            )));
+        }
+        if self.class != OPAQUE {
+            self.dimensions = words(element(rest, order)?.1);
+            let dimensions = &self.dimensions;
+            if dimensions.len() < 2 || dimensions.iter().any(|&d| d > i32::MAX as u32) {
+                return Err(malformed("a variable without proper dimensions"));
+            }
+        }
+        self.name = String::from_utf8_lossy(element(rest, order)?.1).into_owned();
+        Ok(())
+    }
+
+    fn class_name(&self) -> &'static str {
+        match self.class {
+            6..=LAST_NUMERIC if self.flags & LOGICAL != 0 => "logical",
+            class => CLASSES[usize::from(class) - 1],
+        }
+    }
+
+    fn shape(&self) -> String {
+        let dimensions: Vec<String> = self.dimensions.iter().map(u32::to_string).collect();
+        dimensions.join("x")
+    }
+
+    /// Rows and columns of a numeric matrix.
+    fn numeric_shape(&self) -> Option<[u32; 2]> {
+        let numeric = (SPARSE..=LAST_NUMERIC).contains(&self.class);
+        let shape = self.dimensions.first_chunk().copied();
+        shape.filter(|_| numeric && self.dimensions.len() == 2)
+    }
+
+    /// Whether it lists pairs in its rows.
+    fn is_list(&self) -> bool {
+        self.class != SPARSE && self.numeric_shape().is_some_and(are_pairs)
+    }
+
+    fn is_square(&self) -> bool {
+        let shape = self.numeric_shape();
+        shape.is_some_and(|[rows, columns]| rows == columns)
+    }
+
+    /// The entries that are not zero, and zeros that a sparse matrix stores, column by column with rows
+    /// increasing.
+    fn entries(&self) -> Result<Vec<Entry>, Problem> {
+        if !(SPARSE..=LAST_NUMERIC).contains(&self.class) {
+            return Err(Problem::NotNumeric(self.class_name()));
+        }
+        if self.flags & COMPLEX != 0 {
+            return Err(Problem::Complex);
+        }
+        let Some([rows, columns]) = self.numeric_shape() else {
+            return Err(Problem::NotSquare(self.shape()));
+        };
+        let content = self.content(u64::MAX)?;
+        let mut rest = &*content;
+        let again = &mut Self {
+            dimensions: Vec::new(),
+            name: String::new(),
+            ..*self
+        };
+        again.describe(&mut rest)?;
+        let entries = match self.class {
+            SPARSE => self.sparse(rows, columns, &mut rest)?,
+            _ => self.full(rows, columns, &mut rest)?,
+        };
+        match rest.is_empty() {
+            true => Ok(entries),
+            false => Err(malformed("bytes follow the values of the matrix")),
+        }
+    }
+
+    fn full(&self, rows: u32, columns: u32, rest: &mut &[u8]) -> Result<Vec<Entry>, Problem> {
+        let expected = u64::from(rows) * u64::from(columns);
+        let mut entries = Vec::new();
+        let (mut row, mut column, mut given) = (0, 0, 0);
+        for value in self.numbers(rest)? {
+            if value != 0.0 && given < expected {
+                entries.push((row, column, value));
+            }
+            given += 1;
+            row += 1;
+            if row == rows {
+                (row, column) = (0, column + 1);
+            }
+        }
+        if given != expected {
+            return Err(Problem::Corrupt(format!(
+                "a matrix of {rows}x{columns} has {given} values"
+            )));
+        }
+        Ok(entries)
+    }
+
+    fn sparse(&self, rows: u32, columns: u32, rest: &mut &[u8]) -> Result<Vec<Entry>, Problem> {
+        let index = |value: f64| match value as u32 {
+            index if f64::from(index) == value && index <= i32::MAX as u32 => Ok(index as usize),
+            _ => Err(malformed("an index of a sparse matrix is out of range")),
+        };
+        let row_of: Vec<usize> = self.numbers(rest)?.map(index).collect::<Result<_, _>>()?;
+        let starts: Vec<usize> = self.numbers(rest)?.map(index).collect::<Result<_, _>>()?;
+        if starts.len() as u64 != u64::from(columns) + 1 {
+            let found = starts.len();
+            return Err(Problem::Corrupt(format!(
+                "a sparse matrix of {columns} columns has {found} column starts"
+            )));
+        }
+        let count = starts[columns as usize];
+        if starts[0] != 0 || !starts.is_sorted() || count > row_of.len() {
+            return Err(malformed("the column starts of a sparse matrix"));
+        }
+        // Room for further entries may follow the last one.
+        let values: Vec<f64> = self.numbers(rest)?.take(count).collect();
+        if values.len() < count {
+            return Err(Problem::Corrupt(format!(
+                "a sparse matrix of {count} entries has {} values",
+                values.len()
+            )));
+        }
+        let mut entries = Vec::with_capacity(count);
+        for (column, ends) in (0..).zip(starts.windows(2)) {
+            let of_column = &row_of[ends[0]..ends[1]];
+            if !of_column.is_sorted_by(|a, b| a < b) || of_column.last() >= Some(&(rows as usize)) {
+                return Err(malformed("the row numbers of a sparse matrix"));
+            }
+            let values = &values[ends[0]..ends[1]];
+            let of_column = of_column.iter().zip(values);
+            entries.extend(of_column.map(|(&row, &value)| (row as u32, column, value)));
+        }
+        Ok(entries)
+    }
+
+    /// The numbers of the next element, whatever their type.
+    fn numbers<'r>(
+        &self,
+        rest: &mut &'r [u8],
+    ) -> Result<Box<dyn Iterator<Item = f64> + 'r>, Problem> {
+        let order = self.order;
+        let (kind, bytes) = element(rest, order)?;
+        macro_rules! numbers {
+            ($number:ty) => {{
+                let (numbers, left) = bytes.as_chunks::<{ size_of::<$number>() }>();
+                if !left.is_empty() {
+                    return Err(malformed(
+                        "the length of an element is no multiple of its numbers'",
+                    ));
+                }
+                Box::new(numbers.iter().map(move |&bytes| match order {
+                    ByteOrder::Little => <$number>::from_le_bytes(bytes) as f64,
+                    ByteOrder::Big => <$number>::from_be_bytes(bytes) as f64,
+                }))
+            }};
+        }
+        Ok(match kind {
+            1 => numbers!(i8),
+            2 => numbers!(u8),
+            3 => numbers!(i16),
+            4 => numbers!(u16),
+            5 => numbers!(i32),
+            6 => numbers!(u32),
+            7 => numbers!(f32),
+            9 => numbers!(f64),
+            12 => numbers!(i64),
+            13 => numbers!(u64),
+            kind => return Err(Problem::Corrupt(format!("numbers of type {kind}"))),
+        })
+    }
+
+    fn fault(&self, problem: Problem) -> Fault {
+        Place::Variable(self.name.clone()).fault(problem)
     }
 }
 
 /// The graph of an adjacency matrix or of two columns of pairs: of the variable named, else of
 /// `A`, else of the only square numeric matrix with more than one row, else of the only one with two
-/// columns. O(bytes + m log d) for largest degree d; takes about 24 bytes a pair beyond the file's
-/// bytes, whether they are deflated or not.
+/// columns. O(bytes + m log m).
 ///
 /// # Errors
 /// No such variable, or no way to choose one; a matrix that is not numeric,
@@ -128,22 +408,31 @@ pub fn read(bytes: &[u8], variable: Option<&str>) -> Result<Graph, Fault> {
 /// named nor is it `A`.
 pub(super) fn read_noting(
     bytes: &[u8],
-    variable: Option<&str>,
+    name: Option<&str>,
     options: &ListOptions,
 ) -> Result<Parsed, Fault> {
-    let (order, variables) = variables(bytes)?;
-    let chosen = choose(&variables, variable)?;
-    let name = chosen.header.name.clone();
-    match graph(chosen, order, options) {
-        Ok(mut parsed) => {
-            if variable.is_none() && name != "A" {
-                parsed.notes.insert(0, chosen_note(&name));
-            }
-            parsed.read.format = "MATLAB matrix".into();
-            Ok(parsed)
+    let variables = variables(bytes)?;
+    let variable = choose(&variables, name)?;
+    let graph = || match variable.numeric_shape() {
+        Some([rows, _]) if variable.is_list() => matrix::list(rows, &variable.entries()?, options),
+        Some([rows, _]) if variable.is_square() => {
+            matrix::graph(rows, variable.entries()?, options).map(|(parsed, _)| parsed)
         }
-        Err(problem) => Err(Place::Variable(name).fault(problem)),
+        _ => match variable.entries() {
+            Ok(_) => Err(Problem::NotSquare(variable.shape())),
+            Err(problem) => Err(problem),
+        },
+    };
+    let mut parsed = graph().map_err(|problem| variable.fault(problem))?;
+    if name.is_none() && variable.name != "A" {
+        let note = format!(
+            "the graph is the variable {}, the only one that can be",
+            variable.name
+        );
+        parsed.notes.insert(0, note);
     }
+    parsed.read.format = "MATLAB matrix".into();
+    Ok(parsed)
 }
 
 /// The non-zero entries `(row, column, value)` of a numeric variable of any shape in a file of
@@ -153,87 +442,78 @@ pub(super) fn read_noting(
 /// # Errors
 /// As [`read`], but for what makes a matrix an adjacency.
 pub fn entries(bytes: &[u8], variable: &str) -> Result<Vec<(u32, u32, f64)>, Fault> {
-    let (order, variables) = variables(bytes)?;
+    let variables = variables(bytes)?;
     let variable = choose(&variables, Some(variable))?;
-    let mut entries = Vec::new();
-    each_entry(variable, order, |row, column, value| {
-        entries.extend((value != 0.0).then_some((row, column, value)));
-        Ok(())
-    })
-    .map_err(|problem| Place::Variable(variable.header.name.clone()).fault(problem))?;
+    let mut entries = variable
+        .entries()
+        .map_err(|problem| variable.fault(problem))?;
+    entries.retain(|entry| entry.2 != 0.0);
     Ok(entries)
 }
 
-/// All variables of a file, in order; only their headers are read.
-fn variables(bytes: &[u8]) -> Result<(ByteOrder, Vec<Variable<'_>>), Fault> {
+/// All variables of a file, in order; only what they are is read.
+fn variables(bytes: &[u8]) -> Result<Vec<Variable<'_>>, Fault> {
     let fault = |problem| Place::Input.fault(problem);
     let order = match version(bytes) {
         Some(Version::Five(order)) => order,
-        Some(Version::Four) => return Err(fault(Problem::MatlabFour)),
         Some(Version::Hdf5) => return Err(fault(Problem::MatlabHdf5)),
-        None => return Err(fault(malformed("this is not a MATLAB file"))),
+        None => return Err(fault(malformed("this is not a MATLAB file of version 5"))),
     };
-    let body = bytes.get(HEADER_LENGTH..).ok_or_else(|| {
-        fault(Problem::Truncated(format!(
-            "the header takes {HEADER_LENGTH} bytes, the file has {}",
-            bytes.len()
-        )))
+    let mut rest = bytes.get(HEADER_LENGTH..).ok_or_else(|| {
+        let there = bytes.len();
+        let what = format!("the header takes {HEADER_LENGTH} bytes, the file has {there}");
+        fault(Problem::Truncated(what))
     })?;
     let mut variables = Vec::new();
     let mut names = BTreeSet::new();
-    for element in Elements::new(body, order) {
-        let (kind, content) = element.map_err(fault)?;
+    while !rest.is_empty() {
+        let (kind, content) = element(&mut rest, order).map_err(fault)?;
         if kind != MATRIX && kind != COMPRESSED {
             continue;
         }
-        let mut source = Source::of_element(kind, content, order).map_err(fault)?;
-        let header = Header::read(&mut source).map_err(fault)?;
-        if !names.insert(header.name.clone()) {
-            let problem = malformed("there are two variables of this name");
-            return Err(Place::Variable(header.name).fault(problem));
+        let variable = Variable::new(kind, content, order).map_err(fault)?;
+        if !names.insert(variable.name.clone()) {
+            return Err(variable.fault(malformed("there are two variables of this name")));
         }
-        variables.push(Variable {
-            header,
-            kind,
-            content,
-        });
+        variables.push(variable);
     }
-    Ok((order, variables))
+    Ok(variables)
 }
 
-/// Calls `entry` with row, column and value of all non-zero entries, and of stored zeros, column by
-/// column, rows increasing.
-fn each_entry(
-    variable: &Variable,
-    order: ByteOrder,
-    entry: impl FnMut(u32, u32, f64) -> Result<(), Problem>,
-) -> Result<(), Problem> {
-    let mut source = Source::of_element(variable.kind, variable.content, order)?;
-    let header = Header::read(&mut source)?;
-    matrix::each_entry(&header, &mut source, entry)?;
-    source.finish()
-}
-
-/// The graph of a variable.
-fn graph(variable: &Variable, order: ByteOrder, options: &ListOptions) -> Result<Parsed, Problem> {
-    let header = &variable.header;
-    match header.numeric_shape() {
-        Some(shape) if are_pairs(shape) && !header.is_sparse() => {
-            let mut list = List::new(shape, options);
-            each_entry(variable, order, |row, column, value| {
-                list.entry(row, column, value)
-            })?;
-            list.graph()
-        }
+/// The variable that is meant.
+fn choose<'v, 'a>(
+    variables: &'v [Variable<'a>],
+    asked: Option<&str>,
+) -> Result<&'v Variable<'a>, Fault> {
+    let present = || match variables {
+        [] => "no variables".to_owned(),
         _ => {
-            let size = header.real_square()?;
-            let mut matrix = Matrix::new(size, Places::MATLAB, options);
-            each_entry(variable, order, |row, column, value| {
-                matrix.entry(row, column, value)
-            })?;
-            matrix.graph()
+            let describe = |v: &Variable| format!("{} ({} {})", v.name, v.shape(), v.class_name());
+            let all: Vec<String> = variables.iter().map(describe).collect();
+            all.join(", ")
         }
+    };
+    let named = |name| variables.iter().find(|variable| variable.name == name);
+    if let Some(variable) = named(asked.unwrap_or("A")) {
+        return Ok(variable);
     }
+    if let Some(name) = asked {
+        let present = present();
+        return Err(Place::Variable(name.to_owned()).fault(Problem::NoSuchVariable { present }));
+    }
+    // A single number is no adjacency.
+    let is_adjacency = |v: &&Variable| v.is_square() && v.dimensions[0] > 1;
+    let squares: Vec<_> = variables.iter().filter(is_adjacency).collect();
+    let lists: Vec<_> = variables.iter().filter(|v| v.is_list()).collect();
+    let problem = match (&squares[..], &lists[..]) {
+        ([variable], _) | ([], [variable]) => return Ok(variable),
+        ([], []) => Problem::NoMatrix { present: present() },
+        _ => Problem::ChooseVariable {
+            candidates: squares.len().max(lists.len()),
+            present: present(),
+        },
+    };
+    Err(Place::Input.fault(problem))
 }
 
 #[cfg(test)]

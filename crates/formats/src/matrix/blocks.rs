@@ -9,7 +9,9 @@
 //!
 //! This decides how a file is read, not what is true of its graph: floating point will do.
 
-use super::Matrix;
+use std::collections::BTreeMap;
+
+use super::{Entry, are_integers, range, values};
 use crate::error::Problem;
 use viewcert::graph::Graph;
 
@@ -20,13 +22,6 @@ const SINGULAR: f64 = 1e-3;
 /// The fewest entries of a block that is a fundamental matrix: skew ones have 6.
 const FEWEST: usize = 4;
 
-/// Whether a matrix of so many rows may consist of blocks of cameras.
-pub(super) fn may_be(size: u32) -> bool {
-    [3, 4]
-        .iter()
-        .any(|&side| size.is_multiple_of(side) && size > side)
-}
-
 /// A square block of `N` rows, and where it is, in blocks.
 struct Block<const N: usize> {
     row: u32,
@@ -35,108 +30,78 @@ struct Block<const N: usize> {
 }
 
 /// Calls `visit` with every block that is not zero, by columns, until it gives `false`; whether it
-/// never did. The size is a multiple of `N`, and the values are there.
-fn each_block<const N: usize>(
-    matrix: &Matrix,
-    values: &[f64],
-    mut visit: impl FnMut(Block<N>) -> bool,
-) -> bool {
-    let Matrix { starts, rows, .. } = matrix;
+/// never did. Entries are sorted by columns, and the size of the matrix is a multiple of `N`.
+fn each_block<const N: usize>(entries: &[Entry], mut visit: impl FnMut(Block<N>) -> bool) -> bool {
     let side = N as u32;
-    for (columns, column) in starts[..starts.len() - 1].chunks_exact(N).zip(0u32..) {
-        let first = column as usize * N;
-        let mut at: [usize; N] = std::array::from_fn(|c| columns[c]);
-        let end: [usize; N] = std::array::from_fn(|c| starts[first + c + 1]);
-        loop {
-            let least = (0..N)
-                .filter(|&c| at[c] < end[c])
-                .map(|c| rows[at[c]] / side);
-            let Some(row) = least.min() else {
-                break;
-            };
-            let mut entries = [[0.0; N]; N];
-            for c in 0..N {
-                while at[c] < end[c] && rows[at[c]] / side == row {
-                    entries[(rows[at[c]] % side) as usize][c] = values[at[c]];
-                    at[c] += 1;
-                }
-            }
-            let block = Block {
-                row,
-                column,
-                entries,
-            };
-            if !visit(block) {
-                return false;
-            }
+    for columns in entries.chunk_by(|a, b| a.1 / side == b.1 / side) {
+        let mut rows: BTreeMap<u32, [[f64; N]; N]> = BTreeMap::new();
+        for &(row, column, value) in columns {
+            let block = rows.entry(row / side).or_insert([[0.0; N]; N]);
+            block[(row % side) as usize][(column % side) as usize] = value;
+        }
+        let column = columns[0].1 / side;
+        let blocks = rows.into_iter().map(|(row, entries)| Block {
+            row,
+            column,
+            entries,
+        });
+        if !blocks.into_iter().all(&mut visit) {
+            return false;
         }
     }
     true
-}
-
-/// What all blocks seen so far are.
-struct Seen {
-    /// Without zeros.
-    full: bool,
-    fundamental: bool,
-    rotations: bool,
-    /// On the diagonal: all are zero; all are zero or the identity.
-    empty: bool,
-    identity: bool,
 }
 
 /// The graph of cameras, if the matrix consists of blocks, and a note.
 ///
 /// # Errors
 /// Blocks of another kind.
-pub(super) fn read(matrix: &Matrix) -> Result<Option<(Graph, Option<String>)>, Problem> {
-    let size = matrix.size;
+pub(super) fn read(size: u32, entries: &[Entry]) -> Result<Option<(Graph, String)>, Problem> {
+    let (least, most) = range(values(entries));
     // Entries that are all alike say nothing but that they are there.
-    let alike = matrix.range.least >= matrix.range.most;
-    let Some(values) = matrix.values.as_ref().filter(|_| may_be(size) && !alike) else {
+    if least >= most {
         return Ok(None);
-    };
-    if size.is_multiple_of(4) && each_block::<4>(matrix, values, |block| block.is_pose()) {
+    }
+    if size.is_multiple_of(4) && size > 4 && each_block::<4>(entries, |block| block.is_pose()) {
         return Err(Problem::Foreign {
             what: "a matrix of 4 x 4 blocks (relative poses)",
             advice: PAIRS,
         });
     }
-    if !size.is_multiple_of(3) {
+    if !size.is_multiple_of(3) || size == 3 {
         return Ok(None);
     }
-    let mut seen = Seen {
-        full: true,
-        fundamental: true,
-        rotations: true,
-        empty: true,
-        identity: true,
-    };
+    // What all blocks are that were seen so far: without zeros, fundamental matrices, rotations.
+    let (mut full, mut fundamental, mut rotations) = (true, true, true);
     let mut blocks = Vec::new();
-    let all = each_block::<3>(matrix, values, |block| {
-        let go_on = seen.take(&block);
-        if block.row != block.column {
+    let all = each_block::<3>(entries, |block| {
+        if block.row == block.column {
+            (full, fundamental) = (false, false);
+            rotations &= block.is_identity();
+        } else {
+            full &= block.given() == 9;
+            fundamental &= block.is_fundamental();
+            rotations &= block.is_rotation();
             blocks.push(block);
         }
-        go_on
+        full || fundamental || rotations
     });
     if !all || blocks.is_empty() {
         return Ok(None);
     }
-    let (what, sound) = match () {
-        () if seen.rotations => ("relative rotations", true),
-        () if seen.fundamental => ("fundamental or essential matrices", true),
+    let what = match () {
+        () if rotations => "relative rotations",
+        () if fundamental => "fundamental or essential matrices",
         // Counts of matches are not negative, and no fundamental matrix is without signs.
-        () if matrix.range.integers && matrix.range.least > 0.0 => return Ok(None),
-        () => ("", false),
+        () if least > 0.0 && are_integers(entries) => return Ok(None),
+        () => {
+            return Err(Problem::Doubtful {
+                what: "the entries come in blocks of 3 x 3, and the blocks are neither fundamental \
+                       matrices (of rank 2) nor rotations",
+                advice: EITHER,
+            });
+        }
     };
-    if !sound {
-        return Err(Problem::Doubtful {
-            what: "the entries come in blocks of 3 x 3, and the blocks are neither fundamental \
-                   matrices (of rank 2) nor rotations",
-            advice: EITHER,
-        });
-    }
     let pairs = mirrored(&blocks)?;
     let cameras = size / 3;
     let Ok((graph, _)) = Graph::from_pairs(cameras, pairs) else {
@@ -145,7 +110,7 @@ pub(super) fn read(matrix: &Matrix) -> Result<Option<(Graph, Option<String>)>, P
     let note = format!(
         "the matrix consists of blocks of 3 x 3, {what}: {size} rows are {cameras} cameras"
     );
-    Ok(Some((graph, Some(note))))
+    Ok(Some((graph, note)))
 }
 
 const PAIRS: &str = "write the pairs of cameras, one a line";
@@ -186,12 +151,11 @@ fn mirrored(blocks: &[Block<3>]) -> Result<Vec<(u32, u32)>, Problem> {
 
 /// A note on a matrix of equal entries that has the form of blocks all the same: three rows each
 /// that have the same pairs, none among themselves.
-pub(super) fn doubt(matrix: &Matrix) -> Option<String> {
-    let size = matrix.size;
-    let values = matrix.values.as_ref()?;
-    let form = size.is_multiple_of(3)
-        && !values.is_empty()
-        && each_block::<3>(matrix, values, |block| {
+pub(super) fn doubt(size: usize, entries: &[Entry]) -> Option<String> {
+    let form = size > 3
+        && size.is_multiple_of(3)
+        && !entries.is_empty()
+        && each_block::<3>(entries, |block| {
             block.row != block.column && block.given() == 9
         });
     form.then(|| {
@@ -199,26 +163,6 @@ pub(super) fn doubt(matrix: &Matrix) -> Option<String> {
          every row is taken for a camera"
             .to_owned()
     })
-}
-
-impl Seen {
-    /// Takes in a block; whether the matrix can still consist of blocks.
-    fn take(&mut self, block: &Block<3>) -> bool {
-        if block.row == block.column {
-            self.empty = false;
-            self.identity &= block.is_identity();
-        } else {
-            let full = block.given() == 9;
-            self.full &= full;
-            let signs = full || block.given() >= FEWEST && block.has_both_signs();
-            self.fundamental &= signs && block.has_rank_2();
-            self.rotations &= block.is_rotation();
-        }
-        self.full &= self.empty;
-        self.fundamental &= self.empty;
-        self.rotations &= self.identity;
-        self.full || self.fundamental || self.rotations
-    }
 }
 
 fn length(row: impl Iterator<Item = f64>) -> f64 {
@@ -285,7 +229,12 @@ impl Block<3> {
         entries
     }
 
-    fn has_rank_2(&self) -> bool {
+    /// Whether this is of rank 2, and without zeros or with entries of both signs.
+    fn is_fundamental(&self) -> bool {
+        let signs = self.given() >= FEWEST && self.has_both_signs();
+        if !signs && self.given() < 9 {
+            return false;
+        }
         let m = self.balanced();
         // Minors by what is left of rows and columns.
         let minor = |r: usize, c: usize| {

@@ -3,6 +3,7 @@
 //! Matches of features have the same form: rows of two indices, each index in one row at most. They
 //! are known by the graph that they would give, which falls into single pairs.
 
+use super::Entry;
 use crate::edge_list::columns::ListOptions;
 use crate::error::Problem;
 use crate::pairs;
@@ -18,98 +19,56 @@ const WEIGHTLESS: Problem = Problem::Doubtful {
 const EXACT: f64 = (1u64 << 53) as f64;
 
 /// Whether a matrix of this shape is no adjacency and may list pairs in its rows.
-pub(crate) fn are_pairs([rows, columns]: [u64; 2]) -> bool {
+pub(crate) fn are_pairs([rows, columns]: [u32; 2]) -> bool {
     columns == 2 && rows > 2
 }
 
-/// The numbers of a matrix of two columns, or of two rows.
-pub(crate) struct List<'o> {
-    ends: [Vec<u64>; 2],
-    /// How many pairs there are.
-    count: u64,
-    /// Each pair is a column.
-    columns: bool,
-    options: &'o ListOptions,
-}
-
-impl<'o> List<'o> {
-    /// A matrix of this shape, of zeros so far.
-    pub(crate) fn new([rows, columns]: [u64; 2], options: &'o ListOptions) -> Self {
-        Self {
-            ends: Default::default(),
-            count: rows.max(columns),
-            columns: rows == 2,
-            options,
-        }
+/// The graph of the pairs in the rows of a full matrix of two columns, of which these are the entries that
+/// are not zero. The caller says what was read. O(m log m).
+///
+/// # Errors
+/// No natural number, no pairs, a camera with itself, or what are matches of features; weights are asked
+/// for.
+pub(crate) fn list(rows: u32, entries: &[Entry], options: &ListOptions) -> Result<Parsed, Problem> {
+    if options.min_weight.is_some() {
+        return Err(WEIGHTLESS);
     }
-
-    /// Takes in an entry that is not zero; those of each row and of each column come in order.
-    ///
-    /// # Errors
-    /// No natural number.
-    pub(crate) fn entry(&mut self, row: u32, column: u32, value: f64) -> Result<(), Problem> {
+    let mut given = vec![(0u64, 0u64); rows as usize];
+    for &(row, column, value) in entries {
         if value.fract() != 0.0 || !(0.0..EXACT).contains(&value) {
             return Err(Problem::NoPairs(value));
         }
-        let (pair, end) = if self.columns {
-            (column, row)
-        } else {
-            (row, column)
-        };
-        let ends = &mut self.ends[end as usize];
-        ends.resize(pair as usize, 0);
-        ends.push(value as u64);
-        Ok(())
+        let (first, second) = &mut given[row as usize];
+        *if column == 0 { first } else { second } = value as u64;
     }
-
-    /// The graph, after all entries: the matrix is there in full. The caller says what was read.
-    /// O(m log m).
-    ///
-    /// # Errors
-    /// No pairs, a camera with itself, or what are matches of features; weights are asked for.
-    pub(crate) fn graph(self) -> Result<Parsed, Problem> {
-        if self.options.min_weight.is_some() {
-            return Err(WEIGHTLESS);
-        }
-        let count = usize::try_from(self.count).map_err(|_| Problem::TooManyPairs)?;
-        let [first, second] = self.ends.map(|mut ends| {
-            ends.resize(count, 0);
-            ends
+    if are_matches(&given) {
+        return Err(Problem::Doubtful {
+            what: "most pairs share no number with any other: matches of features, perhaps, and \
+                   not pairs of cameras",
+            advice: "write one pair of cameras a line",
         });
-        let given: Vec<(u64, u64)> = first.into_iter().zip(second).collect();
-        if are_matches(&given) {
-            return Err(Problem::Doubtful {
-                what: "most pairs share no number with any other: matches of features, perhaps, and \
-                       not pairs of cameras",
-                advice: "write one pair of cameras a line",
-            });
-        }
-        let all = given.len();
-        let mut given = given;
-        given.retain(|(a, b)| a != b || !self.options.skip_loops);
-        let loops = all - given.len();
-        let named = pairs::of_long_integers("", &given).map_err(|error| error.problem)?;
-        let which = if self.columns { "columns" } else { "rows" };
-        let mut notes = vec![format!(
-            "the {which} are pairs: two numbers of cameras each"
-        )];
-        notes.extend(named.notes);
-        let mut read = ReadAs {
-            merged: named.read.merged,
-            ..ReadAs::default()
-        };
-        if loops > 0 {
-            let pairs = counted(loops, "pair");
-            read.ignored
-                .push(format!("{pairs} of a camera with itself"));
-        }
-        Ok(Parsed {
-            graph: named.graph,
-            labels: named.labels,
-            read,
-            notes,
-        })
     }
+    let all = given.len();
+    given.retain(|(a, b)| a != b || !options.skip_loops);
+    let loops = all - given.len();
+    let named = pairs::of_long_integers("", &given).map_err(|error| error.problem)?;
+    let mut notes = vec!["the rows are pairs: two numbers of cameras each".to_owned()];
+    notes.extend(named.notes);
+    let mut read = ReadAs {
+        merged: named.read.merged,
+        ..ReadAs::default()
+    };
+    if loops > 0 {
+        let pairs = counted(loops, "pair");
+        read.ignored
+            .push(format!("{pairs} of a camera with itself"));
+    }
+    Ok(Parsed {
+        graph: named.graph,
+        labels: named.labels,
+        read,
+        notes,
+    })
 }
 
 /// Whether most pairs share no number with any other.

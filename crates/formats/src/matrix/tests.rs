@@ -4,17 +4,18 @@ use super::*;
 
 /// The graph of a full matrix, column by column.
 fn read(size: u32, entry: impl Fn(u32, u32) -> f64) -> Result<Parsed, Problem> {
-    let options = ListOptions::default();
-    let mut matrix = Matrix::new(size, Places::MATLAB, &options);
-    for column in 0..size {
-        for row in 0..size {
-            let value = entry(row, column);
-            if value != 0.0 {
-                matrix.entry(row, column, value)?;
-            }
-        }
-    }
-    matrix.graph()
+    read_with(size, entry, &ListOptions::default())
+}
+
+fn read_with(
+    size: u32,
+    entry: impl Fn(u32, u32) -> f64,
+    options: &ListOptions,
+) -> Result<Parsed, Problem> {
+    let places = (0..size).flat_map(|column| (0..size).map(move |row| (row, column)));
+    let entries = places.map(|(row, column)| (row, column, entry(row, column)));
+    let entries = entries.filter(|entry| entry.2 != 0.0).collect();
+    graph(size, entries, options).map(|(parsed, _)| parsed)
 }
 
 fn refusal(found: Result<Parsed, Problem>) -> String {
@@ -316,48 +317,32 @@ fn rounding_errors_are_no_pairs() {
 #[test]
 fn entries_in_any_order_are_added_up() {
     let options = ListOptions::default();
-    let entries = [(2, 1), (1, 0), (0, 1), (1, 2), (0, 1), (2, 0), (0, 2)];
-    let values = [1.0, 1.0, 0.5, 1.0, 0.5, 2.0, 2.0];
-    let zero_based = Places {
-        first: 0,
-        transposed: true,
-    };
-    let (matrix, again) =
-        Matrix::of_entries(4, zero_based, &entries, |at| values[at], &options).unwrap();
-    let Parsed {
-        graph,
-        labels,
-        notes,
-        ..
-    } = matrix.graph().unwrap();
-    assert_eq!((again, graph.nodes()), (1, 4));
-    assert_eq!(graph.edges(), [(0, 1), (0, 2), (1, 2)]);
-    assert_eq!(labels, Labels::Numbers { first: 0 });
-    assert_eq!(notes.len(), 1);
+    let entries = vec![
+        (2, 1, 1.0),
+        (1, 0, 1.0),
+        (0, 1, 0.5),
+        (1, 2, 1.0),
+        (0, 1, 0.5),
+        (2, 0, 2.0),
+        (0, 2, 2.0),
+    ];
+    let (parsed, again) = graph(4, entries, &options).unwrap();
+    assert_eq!((again, parsed.graph.nodes()), (1, 4));
+    assert_eq!(parsed.graph.edges(), [(0, 1), (0, 2), (1, 2)]);
+    assert_eq!(parsed.labels, Labels::Numbers { first: 1 });
+    assert_eq!(parsed.notes.len(), 1);
     // Entries that cancel are zeros.
-    let (matrix, _) = Matrix::of_entries(
-        2,
-        zero_based,
-        &[(0, 1), (0, 1), (1, 0)],
-        |at| [1.0, -1.0, 0.0][at],
-        &options,
-    )
-    .unwrap();
-    let Parsed { graph, notes, .. } = matrix.graph().unwrap();
-    assert_eq!(graph.edges(), []);
-    assert_eq!(notes, ["explicit zeros are no pairs: 2 entries"]);
-    // What is a column here is a row in the file.
-    let (matrix, _) = Matrix::of_entries(3, zero_based, &[(2, 0)], |_| 1.0, &options).unwrap();
-    let text = refusal(matrix.graph());
+    let entries = vec![(0, 1, 1.0), (0, 1, -1.0), (1, 0, 0.0)];
+    let (parsed, _) = graph(2, entries, &options).unwrap();
+    assert_eq!(parsed.graph.edges(), []);
+    assert_eq!(parsed.notes, ["explicit zeros are no pairs: 2 entries"]);
+    let text = refusal(graph(3, vec![(2, 0, 1.0)], &options).map(|found| found.0));
     assert!(
-        text.contains("(0, 2) is non-zero, (2, 0) is zero"),
+        text.contains("(3, 1) is non-zero, (1, 3) is zero"),
         "{text}"
     );
-    let Err(problem) = Matrix::of_entries(u32::MAX, zero_based, &[], |_| 1.0, &options).map(|_| ())
-    else {
-        panic!("four billion rows");
-    };
-    assert!(problem.is_size());
+    let problem = graph(u32::MAX, Vec::new(), &options).unwrap_err();
+    assert!(problem.is_size(), "four billion rows");
 }
 
 /// A table of matches, with the numbers of features on its diagonal.
@@ -379,11 +364,7 @@ fn light_entries_and_the_diagonal_are_left_out() {
             skip_loops,
             ..ListOptions::default()
         };
-        let mut matrix = Matrix::new(3, Places::MATLAB, &options);
-        for (row, column, value) in entries {
-            matrix.entry(row, column, value).unwrap();
-        }
-        matrix.graph()
+        graph(3, entries.to_vec(), &options).map(|(parsed, _)| parsed)
     };
     assert!(matches!(of(None, false), Err(Problem::Diagonal(1))));
     assert!(matches!(of(Some("1"), false), Err(Problem::Diagonal(1))));
@@ -419,31 +400,19 @@ fn weights_of_what_has_none_are_refused() {
         ..ListOptions::default()
     };
     let matrix = of_five(&essential);
-    let mut read = Matrix::new(15, Places::MATLAB, &options);
-    for column in 0..15 {
-        for row in 0..15 {
-            read.entry(row, column, matrix[row as usize][column as usize])
-                .unwrap();
-        }
-    }
-    assert!(refusal(read.graph()).starts_with("--min-weight: the entries belong to 3 x 3 blocks"));
-    let list = List::new([4, 2], &options);
-    assert!(refusal(list.graph()).starts_with("--min-weight: the numbers are pairs"));
+    let read = read_with(15, |r, c| matrix[r as usize][c as usize], &options);
+    assert!(refusal(read).starts_with("--min-weight: the entries belong to 3 x 3 blocks"));
+    let list = list(4, &[], &options);
+    assert!(refusal(list).starts_with("--min-weight: the numbers are pairs"));
 }
 
 #[test]
 fn two_columns_are_pairs() {
     let list = |rows: &[[f64; 2]]| {
-        let options = ListOptions::default();
-        let mut list = List::new([rows.len() as u64, 2], &options);
-        for (row, pair) in (0..).zip(rows) {
-            for (column, &value) in (0..).zip(pair) {
-                if value != 0.0 {
-                    list.entry(row, column, value)?;
-                }
-            }
-        }
-        list.graph()
+        let ends = |(row, pair): (u32, &[f64; 2])| [(row, 0, pair[0]), (row, 1, pair[1])];
+        let entries = (0..).zip(rows).flat_map(ends);
+        let entries: Vec<Entry> = entries.filter(|entry| entry.2 != 0.0).collect();
+        super::list(rows.len() as u32, &entries, &ListOptions::default())
     };
     let Parsed {
         graph,

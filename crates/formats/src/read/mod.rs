@@ -93,25 +93,67 @@ pub enum Format {
     Document(Document),
 }
 
+impl Format {
+    /// The formats: the names on the command line, the first of which is printed, and what it reads.
+    pub const ALL: [(Self, &'static [&'static str], &'static str); 12] = [
+        (
+            Self::Edges,
+            &["edges", "edge-list"],
+            "One pair a line: the first two fields, whatever follows; one field alone is a camera",
+        ),
+        (Self::Graph6, &["graph6"], "One graph a line"),
+        (
+            Self::Sparse6,
+            &["sparse6"],
+            "One graph a line, incremental ones among them",
+        ),
+        (Self::Matlab, &["matlab"], "Adjacency matrix, MATLAB 5"),
+        (
+            Self::MatrixMarket,
+            &["matrix-market"],
+            "Adjacency matrix, MatrixMarket coordinates",
+        ),
+        (
+            Self::MatchList,
+            &["match-list", "hloc-pairs"],
+            "Two names of images a line and nothing else: COLMAP's lists of matches, pairs of hloc",
+        ),
+        (
+            Self::Glomap,
+            &["glomap"],
+            "Relative poses of GLOMAP, 9 fields a line",
+        ),
+        (
+            Self::OneDsfm,
+            &["1dsfm"],
+            "EGs.txt of 1DSfM, 14 fields a line; cameras are called by their numbers",
+        ),
+        (
+            Self::Document(Document::Stars),
+            &["openmvg-pairs", "adjacency-list"],
+            "The first field of every line with each of the others: pairs and stars of OpenMVG, adjacency lists",
+        ),
+        (
+            Self::Document(Document::RawMatches),
+            &["raw-matches"],
+            "Matches of features as COLMAP imports them: two names, and below them two numbers a line",
+        ),
+        (Self::Document(Document::G2o), &["g2o"], "Pose graph of g2o"),
+        (
+            Self::Document(Document::GraphMl),
+            &["graphml"],
+            "Graph in XML",
+        ),
+    ];
+}
+
 impl FromStr for Format {
     type Err = UnknownFormat;
 
     fn from_str(name: &str) -> Result<Self, UnknownFormat> {
-        match name {
-            "edges" | "edge-list" => Ok(Self::Edges),
-            "graph6" => Ok(Self::Graph6),
-            "sparse6" => Ok(Self::Sparse6),
-            "matlab" => Ok(Self::Matlab),
-            "matrix-market" => Ok(Self::MatrixMarket),
-            "match-list" | "hloc-pairs" => Ok(Self::MatchList),
-            "glomap" => Ok(Self::Glomap),
-            "1dsfm" => Ok(Self::OneDsfm),
-            "openmvg-pairs" | "adjacency-list" => Ok(Self::Document(Document::Stars)),
-            "raw-matches" => Ok(Self::Document(Document::RawMatches)),
-            "g2o" => Ok(Self::Document(Document::G2o)),
-            "graphml" => Ok(Self::Document(Document::GraphMl)),
-            _ => Err(UnknownFormat),
-        }
+        let mut all = Self::ALL.iter();
+        let found = all.find(|(_, names, _)| names.contains(&name));
+        found.map(|(format, ..)| *format).ok_or(UnknownFormat)
     }
 }
 
@@ -126,20 +168,9 @@ pub struct UnknownFormat;
 /// The name on the command line, which [`FromStr`] reads.
 impl fmt::Display for Format {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            Self::Edges => "edges",
-            Self::Graph6 => "graph6",
-            Self::Sparse6 => "sparse6",
-            Self::Matlab => "matlab",
-            Self::MatrixMarket => "matrix-market",
-            Self::MatchList => "match-list",
-            Self::Glomap => "glomap",
-            Self::OneDsfm => "1dsfm",
-            Self::Document(Document::Stars) => "openmvg-pairs",
-            Self::Document(Document::RawMatches) => "raw-matches",
-            Self::Document(Document::G2o) => "g2o",
-            Self::Document(Document::GraphMl) => "graphml",
-        })
+        let mut all = Self::ALL.iter();
+        let found = all.find(|(format, ..)| format == self);
+        f.pad(found.map_or("", |(_, names, _)| names[0]))
     }
 }
 
