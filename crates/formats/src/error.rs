@@ -58,12 +58,8 @@ pub enum Place {
     Input,
     /// A line of text, counted from 1.
     Line(u64),
-    /// A variable of a MATLAB file, or an array of an archive.
+    /// A variable of a MATLAB file.
     Variable(String),
-    /// A place in a list of nodes, counted from 1.
-    Node(u64),
-    /// A place in a list of edges, counted from 1.
-    Edge(u64),
 }
 
 impl Place {
@@ -81,8 +77,6 @@ impl fmt::Display for Place {
             Self::Input => Ok(()),
             Self::Line(line) => write!(f, ":{line}"),
             Self::Variable(name) => write!(f, ": variable {name}"),
-            Self::Node(number) => write!(f, ": node {number} of the list"),
-            Self::Edge(number) => write!(f, ": edge {number} of the list"),
         }
     }
 }
@@ -305,12 +299,6 @@ pub enum Problem {
         /// What is wrong.
         what: String,
     },
-    /// Subgraphs that are joined as wholes, and are too large for that.
-    #[error("joined subgraphs make more than {limit} pairs")]
-    TooManyJoined {
-        /// How many are made.
-        limit: usize,
-    },
     /// A line that contradicts all earlier ones.
     #[error("the lines before are {format}, and this one is not: {why}")]
     Unlike {
@@ -334,6 +322,9 @@ pub enum Problem {
     /// Something in a MatrixMarket file that is not as it has to be.
     #[error("MatrixMarket: {0}")]
     MatrixMarket(String),
+    /// A MATLAB file of level 4.
+    #[error("a MATLAB file of version 4 is not read here")]
+    MatlabFour,
     /// A MATLAB file of level 7.3, which is HDF5.
     #[error("HDF5, as MATLAB writes it in version 7.3, is not read here")]
     MatlabHdf5,
@@ -526,7 +517,6 @@ impl Problem {
             Self::Malformed { .. } => {
                 "mend the file, or write one pair a line: two names and nothing else"
             }
-            Self::TooManyJoined { .. } => "write the pairs one by one",
             Self::EmptyField => "put a field on either side of every separator",
             Self::Quote(_) => "quote whole fields only, and double the quotes within them",
             Self::Unlike { .. } => "name the format with --format, or mend the line",
@@ -538,6 +528,7 @@ impl Problem {
             Self::MatrixMarket(_) => {
                 "write it again as `%%MatrixMarket matrix coordinate pattern symmetric`"
             }
+            Self::MatlabFour => "save it in MATLAB with -v7 or -v6",
             Self::MatlabHdf5 => {
                 "in Python: viewcert.verify(h5py.File('FILE')['A'][:]); or save it in MATLAB with -v7"
             }
@@ -594,7 +585,6 @@ impl Problem {
             | Self::TooManyNodes
             | Self::TooManyPairs
             | Self::TooManyIsolated { .. }
-            | Self::TooManyJoined { .. }
             | Self::LineTooLarge { .. }
             | Self::Sparse6(Sparse6Error::TooLarge { .. }) => true,
             Self::Unlike { why, .. } => why.is_size(),

@@ -213,45 +213,34 @@ fn place(word: &str, nodes: u32) -> Result<u32, Problem> {
 }
 
 impl Kind {
-    fn of_header<'a>(mut words: impl Iterator<Item = &'a str>) -> Result<Self, Problem> {
-        let mut next = || {
-            words
-                .next()
-                .map(str::to_ascii_lowercase)
-                .unwrap_or_default()
+    fn of_header<'a>(words: impl Iterator<Item = &'a str>) -> Result<Self, Problem> {
+        let words: Vec<String> = words.map(str::to_ascii_lowercase).collect();
+        let word = |k: usize| words.get(k).map_or("", |word| &**word);
+        let refused = |what: &str, k: usize| {
+            let word = word(k);
+            Err(said(format!(
+                "{what} `{word}` {} not read here",
+                if k == 3 { "are" } else { "is" }
+            )))
         };
-        let (header, object, format, values, symmetry) = (next(), next(), next(), next(), next());
-        if header != HEADER.to_ascii_lowercase() || object != "matrix" {
-            return Err(said(format!("a {header} {object} is not a matrix")));
+        if word(0) != HEADER.to_ascii_lowercase() || word(1) != "matrix" {
+            return Err(said(format!("a {} {} is not a matrix", word(0), word(1))));
         }
-        let array = match &*format {
-            "array" => true,
-            "coordinate" => false,
-            _ => {
-                return Err(said(format!(
-                    "the format `{format}` is not read here, only `coordinate` and `array`"
-                )));
-            }
-        };
-        let values = match &*values {
+        let array = word(2) == "array";
+        if !array && word(2) != "coordinate" {
+            return refused("the format", 2);
+        }
+        let values = match word(3) {
             "pattern" if !array => Values::Pattern,
             "integer" | "unsigned-integer" => Values::Integer,
             "real" | "double" => Values::Real,
-            _ => {
-                return Err(said(format!(
-                    "entries that are `{values}` are not read here"
-                )));
-            }
+            _ => return refused("entries that are", 3),
         };
-        let symmetry = match &*symmetry {
+        let symmetry = match word(4) {
             "symmetric" => Symmetry::Symmetric,
             "skew-symmetric" => Symmetry::Skew,
             "general" => Symmetry::General,
-            _ => {
-                return Err(said(format!(
-                    "a matrix that is `{symmetry}` is not read here"
-                )));
-            }
+            _ => return refused("a matrix that is", 4),
         };
         Ok(Self {
             array,
@@ -274,14 +263,13 @@ impl Kind {
         let (rows, columns, entries) = match (numbers.as_deref(), self.array) {
             (Some(&[rows, columns, entries]), false) => (rows, columns, Some(entries)),
             (Some(&[rows, columns]), true) => (rows, columns, None),
-            (_, false) => {
-                let what = "the line with the sizes holds rows, columns and entries";
-                return Err(said(what.into()));
-            }
-            (_, true) => {
-                return Err(said(
-                    "the line with the sizes holds rows and columns".into(),
-                ));
+            (_, array) => {
+                let what = if array {
+                    "rows and columns"
+                } else {
+                    "rows, columns and entries"
+                };
+                return Err(said(format!("the line with the sizes holds {what}")));
             }
         };
         let (Ok(height), Ok(width)) = (u32::try_from(rows), u32::try_from(columns)) else {
@@ -329,26 +317,19 @@ impl Kind {
             (_, None) => return Err(said("the entry has no value".into())),
             (_, Some(word)) => word,
         };
-        if self.values == Values::Integer {
-            let digits = word.strip_prefix(['+', '-']).unwrap_or(word);
-            if digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit()) {
-                return Err(said(format!("`{word}` is no integer")));
-            }
+        let is_named = word.parse::<f64>().is_ok_and(|value| !value.is_finite());
+        let value = match word.parse::<f64>() {
+            Ok(value) if is_named || is_number(word.as_bytes()) => value,
+            _ => return Err(said(format!("`{word}` is no number"))),
+        };
+        if self.values == Values::Integer && value.fract() != 0.0 {
+            return Err(said(format!("`{word}` is no integer")));
         }
-        let value = word.parse::<f64>();
-        let named = value.as_ref().is_ok_and(|value| !value.is_finite());
-        match value {
-            Ok(value) if named || is_number(word.as_bytes()) => {
-                let mantissa = word.split(['e', 'E']).next().unwrap_or_default();
-                let zero = !mantissa.bytes().any(|b| matches!(b, b'1'..=b'9'));
-                // What is too small for a number is not zero all the same.
-                Ok(if value == 0.0 && !zero {
-                    f64::MIN_POSITIVE
-                } else {
-                    value
-                })
-            }
-            _ => Err(said(format!("`{word}` is no number"))),
+        // What is too small for a number is not zero all the same.
+        let mantissa = word.split(['e', 'E']).next().unwrap_or_default();
+        match value == 0.0 && mantissa.contains(|digit| matches!(digit, '1'..='9')) {
+            true => Ok(f64::MIN_POSITIVE),
+            false => Ok(value),
         }
     }
 }

@@ -4,14 +4,15 @@
 //! fractions ([`GivenCameras`]); decimals, fractions and doubles are such. A quaternion q gives the
 //! matrix [ R(q) | |q|^2 t ], whose centre is that of the pose, whatever the length of q.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::{self, Read as _};
+use std::io;
 use std::path::Path;
 
 use super::places::{Given, GivenCameras, Read, all, matrix};
 use super::table::Table;
 use crate::cameras::{Cameras, for_each_line};
+use crate::edge_list::BYTE_ORDER_MARK;
 use crate::edge_list::fields::{Field, split};
 use crate::error::{Fault, Place, Problem, ReadError};
 use crate::{Model, NamedGraph, matlab};
@@ -31,53 +32,28 @@ const CENTRE: &str = "centre";
 /// The first words of lines with cameras.
 pub(super) const WORDS: [&str; 3] = [CAMERA, POSE, CENTRE];
 
-/// Reads the cameras of a graph from a file, if it is one of cameras: a COLMAP model (a folder), a text whose first word is `camera`, `pose` or
-/// `centre`, or a table whose head names such columns. Nothing is read from standard input and pipes, which can be read once only:
-/// their bytes are for [`cameras_in`]. O(bytes).
-///
-/// # Errors
-/// With file and line: numbers that are none, cameras that the graph does not have, or that are missing.
-pub fn read_cameras(
-    path: &Path,
+/// The cameras of a COLMAP model, by the names of its images.
+pub(super) fn of_folder(
+    folder: &Path,
     input: &NamedGraph,
     model: Question,
-) -> Result<Option<GivenCameras>, ReadError> {
-    let name = path.display().to_string();
-    if path.is_dir() {
-        let found =
-            of_model(&Model::read(path)?, input).map_err(|problem| Place::Input.fault(problem));
-        return finished(found, &name, input, model).map(Some);
-    }
-    if !path.is_file() {
-        return Ok(None);
-    }
-    let mut start = [0; 512];
-    let Ok(count) = File::open(path).and_then(|mut file| file.read(&mut start)) else {
-        return Ok(None);
-    };
-    if !is_text_of_cameras(path, &start[..count]) {
-        return arrays(&start[..count]).map_or(Ok(None), |fault| Err(fault.in_file(&name)));
-    }
-    let bytes = std::fs::read(path).map_err(|error| Place::Input.fault(error.into()));
-    let bytes = bytes.map_err(|fault: Fault| fault.in_file(&name))?;
-    cameras_in(&bytes, &name, input, model)
+) -> Result<GivenCameras, ReadError> {
+    let found = of_model(&Model::read(folder)?, input);
+    let found = found.map_err(|problem| Place::Input.fault(problem));
+    finished(found, &folder.display().to_string(), input, model)
 }
 
-/// The cameras that bytes hold which were read from what is called `name`, if they hold any: all that
-/// [`read_cameras`] reads but a COLMAP model. O(bytes).
-///
-/// # Errors
-/// As there.
-pub fn cameras_in(
+/// The cameras that bytes hold which were read from what is called `name`, if they hold any. O(bytes).
+pub(super) fn cameras_in(
     bytes: &[u8],
     name: &str,
     input: &NamedGraph,
     model: Question,
 ) -> Result<Option<GivenCameras>, ReadError> {
-    match is_first_line_of_cameras(bytes) {
-        Some(true) => finished(of_text(bytes, input), name, input, model).map(Some),
-        _ => arrays(bytes).map_or(Ok(None), |fault| Err(fault.in_file(name))),
+    if are_cameras(bytes) {
+        return finished(of_text(bytes, input), name, input, model).map(Some);
     }
+    arrays(bytes).map_or(Ok(None), |fault| Err(fault.in_file(name)))
 }
 
 /// Says of arrays, which are no text, how Python takes them.
@@ -111,31 +87,30 @@ fn finished(
     Ok(found)
 }
 
-/// Whether a file is of cameras by the whole lines of its start; in one that begins with long comments the whole
-/// is looked at. A line that the end of the start cuts says nothing: the cut may be in its first word.
-fn is_text_of_cameras(path: &Path, start: &[u8]) -> bool {
-    let end = start.iter().rposition(|&byte| byte == b'\n');
-    is_first_line_of_cameras(&start[..end.unwrap_or(start.len())])
-        .or_else(|| is_first_line_of_cameras(&std::fs::read(path).ok()?))
-        .unwrap_or(false)
-}
-
 /// Whether the first line that is no comment begins with the word of a camera, or is the head of a table of
-/// such; nothing if there is no such line.
-fn is_first_line_of_cameras(bytes: &[u8]) -> Option<bool> {
-    let text = String::from_utf8_lossy(bytes);
-    let mut lines = text.trim_start_matches('\u{feff}').lines().map(str::trim);
-    let line = lines.find(|line| !line.is_empty() && !line.starts_with(['#', '%']))?;
+/// such.
+fn are_cameras(bytes: &[u8]) -> bool {
+    let lines = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
+    let mut lines = lines
+        .split_inclusive(|&byte| byte == b'\n')
+        .map(String::from_utf8_lossy);
+    let is_line = |line: &Cow<str>| !line.trim().is_empty() && !line.trim().starts_with(['#', '%']);
+    let Some(line) = lines.find(is_line) else {
+        return false;
+    };
     let separators = [' ', '\t', ','];
-    if WORDS.contains(&line.split(separators).next().unwrap_or_default()) {
-        return Some(true);
+    if WORDS.contains(&line.trim().split(separators).next().unwrap_or_default()) {
+        return true;
     }
-    let words = line.split(separators).filter(|word| !word.is_empty());
+    let words = line
+        .trim()
+        .split(separators)
+        .filter(|word| !word.is_empty());
     let words: Vec<String> = words
         .map(|word| word.trim_matches('"').to_lowercase())
         .collect();
     let head = words.split_first();
-    Some(head.is_some_and(|(first, rest)| Table::of_head(first, rest).is_some()))
+    head.is_some_and(|(first, rest)| Table::of_head(first, rest).is_some())
 }
 
 /// The cameras of a text.

@@ -15,7 +15,7 @@ mod table;
 use std::io::Read;
 use std::path::Path;
 
-use crate::cameras::{for_each_line, read_file};
+use crate::cameras::for_each_line;
 use crate::edge_list::fields::split;
 use crate::error::{Fault, Place, Problem, ReadError};
 use crate::{NamedGraph, colmap, whole};
@@ -26,7 +26,7 @@ pub use parts::NamedParts;
 use places::GivenCameras;
 
 /// What a file gives.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Given {
     /// Parts or displacements.
     pub known: Known,
@@ -34,41 +34,39 @@ pub struct Given {
     pub notes: Vec<String>,
 }
 
-/// Reads what is given besides the pairs of a graph from a file (`-` is standard input); of a COLMAP
-/// database these are the positions of its pose priors. Notes begin with its name. O(n + k log k) for k fields, and for parts inside of others what it takes to compare
-/// them.
+/// What is given besides the pairs of a graph: by its rigs, and by a file if there is one (`-` is standard
+/// input); of a COLMAP database these are the positions of its pose priors. Notes begin with its name.
+/// O(n + k log k) for k fields, and for parts inside of others what it takes to compare them.
 ///
 /// # Errors
 /// With file and line: what the grammar excludes, a label that the graph does not have, parts beside
 /// displacements, vectors on some lines only or that contradict each other; a file that cannot be read
-/// or gives nothing.
-pub fn read_given(path: impl AsRef<Path>, input: &NamedGraph) -> Result<Given, ReadError> {
-    let path = path.as_ref();
-    if colmap::is_database(path) {
-        return priors::read(path, input);
+/// or gives nothing; what does not go together with base lines of rigs.
+pub fn given(path: Option<&Path>, input: &NamedGraph) -> Result<Given, ReadError> {
+    match path {
+        None => joined(Given::default(), &input.name, input),
+        Some(path) if colmap::is_database(path) => joined(
+            priors::read(path, input)?,
+            &path.display().to_string(),
+            input,
+        ),
+        Some(path) => given_in(&whole::bytes(path)?, &path.display().to_string(), input),
     }
-    let read = |text: &mut dyn Read| read(text, input);
-    read_file(path, read, |given| &mut given.notes)
 }
 
-/// What is given besides the pairs of a graph: by its rigs, and by a file if there is one; see
-/// [`read_given`]. O(nodes) more than that.
-///
-/// # Errors
-/// As there; what does not go together with base lines of rigs.
-pub fn given(path: Option<&Path>, input: &NamedGraph) -> Result<Given, ReadError> {
-    let given = match path {
-        Some(path) => read_given(path, input)?,
-        None => Given {
-            known: Known::default(),
-            notes: Vec::new(),
-        },
-    };
-    let known = with_rigs(given.known, input).map_err(|problem| ReadError {
-        file: path.unwrap_or(Path::new(&input.name)).display().to_string(),
-        place: Place::Input,
-        problem,
-    })?;
+/// What the bytes of a file give.
+fn given_in(bytes: &[u8], name: &str, input: &NamedGraph) -> Result<Given, ReadError> {
+    let mut found = read(bytes, input).map_err(|fault| fault.in_file(name))?;
+    for note in &mut found.notes {
+        *note = format!("{name}: {note}");
+    }
+    joined(found, name, input)
+}
+
+/// The same with the rigs of the graph.
+fn joined(given: Given, name: &str, input: &NamedGraph) -> Result<Given, ReadError> {
+    let known = with_rigs(given.known, input);
+    let known = known.map_err(|problem| Place::Input.fault(problem).in_file(name))?;
     Ok(Given { known, ..given })
 }
 
@@ -81,63 +79,48 @@ pub enum Beside {
     Known(Given),
 }
 
-/// The cameras that a file gives (`-` is standard input, a pipe is read as that is), see [`read_cameras`](cameras::read_cameras); or what
-/// is given besides the pairs, see [`given`].
+/// The cameras that a file gives, see [`cameras_beside`]; or what is given besides the pairs, see
+/// [`given`].
 ///
 /// # Errors
 /// As there.
 pub fn beside(path: Option<&Path>, input: &NamedGraph, model: Model) -> Result<Beside, ReadError> {
-    let Some(path) = path else {
-        return given(None, input).map(Beside::Known);
+    let Some(path) = path.filter(|path| !colmap::is_database(path)) else {
+        return given(path, input).map(Beside::Known);
     };
-    if !is_read_once(path) {
-        return Ok(match cameras::read_cameras(path, input, model)? {
-            Some(cameras) => Beside::Cameras(cameras),
-            None => Beside::Known(given(Some(path), input)?),
-        });
+    if path.is_dir() {
+        return cameras::of_folder(path, input, model).map(Beside::Cameras);
     }
-    let bytes = whole::bytes(path)?;
-    let name = path.display().to_string();
-    if let Some(cameras) = cameras::cameras_in(&bytes, &name, input, model)? {
-        return Ok(Beside::Cameras(cameras));
+    // What is no file can be read only once.
+    let (bytes, name) = (whole::bytes(path)?, path.display().to_string());
+    match cameras::cameras_in(&bytes, &name, input, model)? {
+        Some(cameras) => Ok(Beside::Cameras(cameras)),
+        None => given_in(&bytes, &name, input).map(Beside::Known),
     }
-    let mut found = read_named(&bytes, &name, input)?;
-    found.known = with_rigs(found.known, input)
-        .map_err(|problem| Place::Input.fault(problem).in_file(&name))?;
-    Ok(Beside::Known(found))
 }
 
-/// Whether what a path names can be read only once: standard input (`-`), a pipe, a terminal. To look at its
-/// start and then read it would lose the start.
-fn is_read_once(path: &Path) -> bool {
-    let stream = |kind: std::fs::Metadata| !kind.is_file() && !kind.is_dir();
-    path == Path::new("-") || path.metadata().is_ok_and(stream)
-}
-
-/// The cameras that a file gives (`-` is standard input), and nothing else that may be given.
+/// The cameras that a file gives (`-` is standard input), if it is one of cameras: a COLMAP model (a folder),
+/// a text whose first word is `camera`, `pose` or `centre`, or a table whose head names such columns. O(bytes).
 ///
 /// # Errors
-/// As of [`read_cameras`](cameras::read_cameras).
+/// With file and line: numbers that are none, cameras that the graph does not have, or that are missing.
 pub fn cameras_beside(
     path: &Path,
     input: &NamedGraph,
     model: Model,
 ) -> Result<Option<GivenCameras>, ReadError> {
-    match is_read_once(path) {
-        true => {
-            let bytes = whole::bytes(path)?;
-            cameras::cameras_in(&bytes, &path.display().to_string(), input, model)
-        }
-        false => cameras::read_cameras(path, input, model),
+    if path.is_dir() {
+        return cameras::of_folder(path, input, model).map(Some);
     }
-}
-
-fn read_named(bytes: &[u8], name: &str, input: &NamedGraph) -> Result<Given, ReadError> {
-    let mut found = read(bytes, input).map_err(|fault| fault.in_file(name))?;
-    for note in &mut found.notes {
-        *note = format!("{name}: {note}");
+    if colmap::is_database(path) {
+        return Ok(None);
     }
-    Ok(found)
+    cameras::cameras_in(
+        &whole::bytes(path)?,
+        &path.display().to_string(),
+        input,
+        model,
+    )
 }
 
 /// What is known, with the base lines of the graph's rigs.
@@ -168,7 +151,7 @@ pub fn with_rigs(known: Known, input: &NamedGraph) -> Result<Known, Problem> {
     ))
 }
 
-/// Reads what is given besides the pairs of a graph; see [`read_given`].
+/// Reads what is given besides the pairs of a graph; see [`given`].
 ///
 /// # Errors
 /// As there, but for the name of the file.

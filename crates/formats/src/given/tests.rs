@@ -224,5 +224,5 @@ fn what_is_wrong_is_said_with_its_line() {
         let error = given(&format!("part 1 {label}"), &numbers).unwrap_err();
         assert!(error.contains("is no camera of the graph"), "{error}");
     }
-    assert!(read_given("no such file", &numbers).is_err());
+    assert!(super::given(Some(Path::new("no such file")), &numbers).is_err());
 }

@@ -62,13 +62,14 @@ const COMPLEX: u32 = 0x800;
 const LOGICAL: u32 = 0x200;
 
 /// Whether the first bytes of a file, 128 or more of them, are those of a
-/// MATLAB file of version 5 or 7.3.
+/// MATLAB file of any version.
 pub fn is_matlab(head: &[u8]) -> bool {
     version(head).is_some()
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Version {
+    Four,
     /// With the byte order.
     Five(ByteOrder),
     Hdf5,
@@ -89,8 +90,31 @@ fn version(head: &[u8]) -> Option<Version> {
         Some([_, 1, b'I', b'M']) => Some(Version::Five(ByteOrder::Little)),
         Some([1, _, b'M', b'I']) => Some(Version::Five(ByteOrder::Big)),
         Some([_, 2, b'I', b'M'] | [2, _, b'M', b'I']) => Some(Version::Hdf5),
-        _ => (head.starts_with(b"MATLAB 5.0 MAT-file")).then_some(Version::Five(ByteOrder::Little)),
+        _ if head.starts_with(b"MATLAB 5.0 MAT-file") => Some(Version::Five(ByteOrder::Little)),
+        _ => is_version_four(head).then_some(Version::Four),
     }
+}
+
+/// Version 4 has no signature: its header is five integers, the first of which
+/// is a code of decimal digits, the fourth a flag, the fifth a short length.
+fn is_version_four(head: &[u8]) -> bool {
+    let Some(words) = head.first_chunk::<20>() else {
+        return false;
+    };
+    let plausible = |number: fn([u8; 4]) -> u32| {
+        let mut fields = words.as_chunks::<4>().0.iter().map(|&bytes| number(bytes));
+        let mut next = || fields.next().unwrap_or(u32::MAX);
+        let (code, rows, columns, imaginary, name) = (next(), next(), next(), next(), next());
+        let digits = [code / 1000, code / 100 % 10, code / 10 % 10, code % 10];
+        digits[0] <= 4
+            && digits[1] == 0
+            && digits[2] <= 5
+            && digits[3] <= 2
+            && rows.max(columns) <= i32::MAX as u32
+            && imaginary <= 1
+            && (2..=64).contains(&name)
+    };
+    plausible(u32::from_le_bytes) || plausible(u32::from_be_bytes)
 }
 
 impl ByteOrder {
@@ -456,8 +480,9 @@ fn variables(bytes: &[u8]) -> Result<Vec<Variable<'_>>, Fault> {
     let fault = |problem| Place::Input.fault(problem);
     let order = match version(bytes) {
         Some(Version::Five(order)) => order,
+        Some(Version::Four) => return Err(fault(Problem::MatlabFour)),
         Some(Version::Hdf5) => return Err(fault(Problem::MatlabHdf5)),
-        None => return Err(fault(malformed("this is not a MATLAB file of version 5"))),
+        None => return Err(fault(malformed("this is not a MATLAB file"))),
     };
     let mut rest = bytes.get(HEADER_LENGTH..).ok_or_else(|| {
         let there = bytes.len();

@@ -337,6 +337,18 @@ fn other_versions_are_refused_with_what_to_do() {
     let mut hdf5 = b"MATLAB 7.3 MAT-file, Platform: GLNXA64".to_vec();
     hdf5.resize(600, 0);
     assert!(refusal(&hdf5).contains("viewcert.verify(h5py.File('FILE')['A'][:])"));
+    for writer in [LITTLE, BIG] {
+        // Code, rows, columns, real, length of the name with its zero.
+        let code = if writer.0 == ByteOrder::Big { 1000 } else { 0 };
+        let mut four: Vec<u8> = [code, 2, 2, 0, 2]
+            .iter()
+            .flat_map(|&v| writer.word(v))
+            .collect();
+        four.extend(b"A\0");
+        four.extend([0; 32]);
+        assert!(is_matlab(&four));
+        assert!(refusal(&four).contains("version 4 is not read here; save it"));
+    }
     assert!(!is_matlab(b"1 2\n2 3\n"));
     assert!(!is_matlab(&[0; 200]));
 }

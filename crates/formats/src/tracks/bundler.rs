@@ -28,18 +28,35 @@ pub(super) fn read<R: Read>(
         words.skip(NUMBERS_OF_A_CAMERA, "a camera")?;
     }
     let mut graph = TrackGraph::new(numbered(cameras), options)?;
+    points_of(
+        &mut words,
+        points.into(),
+        &Vec::from_iter(0..cameras),
+        &mut graph,
+    )?;
+    graph.finish()
+}
+
+/// Takes in so many points: position and colour, the number of views, and of each the camera, whose node
+/// is known by its number, and three numbers more.
+pub(super) fn points_of<R: Read>(
+    words: &mut Words<R>,
+    count: u64,
+    nodes: &[u32],
+    graph: &mut TrackGraph,
+) -> Result<(), Fault> {
     let mut views = Vec::new();
-    for _ in 0..points {
+    for _ in 0..count {
         words.skip(6, "the position or colour of a point")?;
-        let count = words.number("the number of a point's views")?;
         views.clear();
-        for _ in 0..count {
-            views.push(words.number_below(cameras.into(), "the number of a camera")?);
+        for _ in 0..words.number("the number of a point's views")? {
+            let camera = words.number_below(nodes.len() as u64, "the number of a camera")?;
+            views.push(nodes[camera as usize]);
             words.skip(3, "a view of a point")?;
         }
         graph
             .push(&views)
             .map_err(|problem| Place::Input.fault(problem))?;
     }
-    graph.finish()
+    Ok(())
 }

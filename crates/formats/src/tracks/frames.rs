@@ -285,11 +285,6 @@ impl Frames {
         frames.has_unknown().then(|| frames.sha256())
     }
 
-    /// Whether any images of one frame know their places to each other.
-    pub fn say_something(&self) -> bool {
-        !self.groups.is_empty() || !self.together.is_empty()
-    }
-
     /// The camera of an image, by their numbers.
     #[cfg_attr(
         not(feature = "databases"),

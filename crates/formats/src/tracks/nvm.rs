@@ -6,6 +6,7 @@
 
 use std::io::Read;
 
+use super::bundler::points_of;
 use super::graph::{TrackGraph, TrackOptions, sorted};
 use super::words::{Words, integer};
 use crate::NamedGraph;
@@ -39,18 +40,7 @@ pub(super) fn read<R: Read>(
         true => words.number("the number of points")?,
         false => 0,
     };
-    let mut views = Vec::new();
-    for _ in 0..points {
-        words.skip(6, "the position or colour of a point")?;
-        let count = words.number("the number of a point's views")?;
-        views.clear();
-        for _ in 0..count {
-            let camera = words.number_below(nodes.len() as u64, "the number of a camera")?;
-            views.push(nodes[camera as usize]);
-            words.skip(3, "a view of a point")?;
-        }
-        graph.push(&views).map_err(input)?;
-    }
+    points_of(&mut words, points, &nodes, &mut graph)?;
     let more = words.next_full_line()? && integer(words.rest()).is_some_and(|count| count > 0);
     let mut graph = graph.finish()?;
     if more {
