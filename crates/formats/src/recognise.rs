@@ -398,10 +398,32 @@ fn words(text: &str, whole: bool) -> Option<Problem> {
         return Some(foreign("a DIMACS graph", DIMACS));
     }
     let number = |word: &&str| is_number(word.as_bytes());
-    if let Some(file @ (TrackFile::Bal | TrackFile::OpenMvgMatches)) =
-        tracks::kind(text.as_bytes(), whole)
+    let values = |line: &[&str]| {
+        line.iter()
+            .map(|word| integer(word))
+            .collect::<Option<Vec<u64>>>()
+    };
+    let counts = values(first);
+    if let (Some([cameras, points, observations]), Some([camera, point, ..])) =
+        (counts.as_deref(), lines.get(1).map(Vec::as_slice))
+        && lines[1].len() == 4
+        && *observations > 0
+        && integer(camera).is_some_and(|camera| camera < *cameras)
+        && integer(point).is_some_and(|point| point < *points)
     {
-        return Some(of_tracks(file));
+        return Some(of_tracks(TrackFile::Bal));
+    }
+    if let (2, Some([count])) = (
+        first.len(),
+        lines.get(1).and_then(|line| values(line)).as_deref(),
+    ) && counts.is_some()
+        && lines
+            .iter()
+            .skip(2)
+            .take(*count as usize)
+            .all(|line| line.len() == 2)
+    {
+        return Some(of_tracks(TrackFile::OpenMvgMatches));
     }
     if whole
         && lines.len() > 2
