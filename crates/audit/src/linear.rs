@@ -268,8 +268,7 @@ fn factored(mut rows: Vec<(usize, Vec<f64>)>, shift: f64) -> Option<Vec<(usize, 
         let (first, pivot) = (head[k].0, &mut head[k].1);
         let last = k - first;
         pivot[last] = (pivot[last] + shift - dot(&pivot[..last], &pivot[..last])).sqrt();
-        // Not a number is not above zero either.
-        if !(pivot[last] > 0.0) {
+        if pivot[last].is_nan() || pivot[last] <= 0.0 {
             return None;
         }
         tail.par_iter_mut()
