@@ -324,7 +324,11 @@ impl Claim {
         match folder.map(|folder| (folder, by_stem(folder, text))) {
             Some((_, found)) if !found.is_empty() => match &found[..] {
                 [path] => only(text, read(path)?),
-                all => Err(unknown(&format!("it may be any of {all:?}"))),
+                all => {
+                    let all: Vec<String> =
+                        all.iter().map(|one| one.display().to_string()).collect();
+                    Err(unknown(&format!("it may be any of {}", all.join(", "))))
+                }
             },
             _ if self.column == "graph" && is_graph6 => as_graph6(),
             Some((folder, _)) => Err(unknown(&format!("no such file in {}", folder.display()))),

@@ -223,11 +223,13 @@ fn the_diagonals_of_a_cycle_are_implied() {
     let implied: Pairs = found.implied(&graph).collect();
     assert_eq!(implied, [(3, 4), (5, 6)]);
     assert_eq!(found.sets, [vec![3, 4, 5, 6]]);
-    assert_eq!(found.complete, Strength::Proof);
+    // No evidence of the search proves this graph's rank: residues bound it, but for an error.
+    let bounded = |strength: Strength| matches!(strength, Strength::ErrorBound(e) if e <= -100);
+    assert!(bounded(found.complete));
     // With the diagonals the 4-cycle is a body, and the searches for a bound see less.
     assert!(found.implied.error_log2().is_none_or(|e| e <= -100));
     // One stress, which vanishes at no pair: all check each other, each in one equation.
     let found = groups(&graph, &verdict, &options(Model::Projective)).unwrap();
     let found = found.unwrap();
-    assert_eq!((found.count, found.strength), (1, Strength::Proof));
+    assert!(found.count == 1 && bounded(found.strength));
 }
