@@ -335,7 +335,7 @@ def audit_claims(
         try:
             graph = given.get(number)
             if graph is None and named:
-                called, is_name = claims.name(number) or (None, False)
+                called, is_name = claims.name(number) or ("", False)
                 if is_name and called not in named:
                     raise InputError(f"unknown graph {called!r}: `graphs` has none of that name")
                 graph = named.get(called)
