@@ -43,7 +43,7 @@ def main(database: pathlib.Path, images: pathlib.Path, folder: pathlib.Path) -> 
     verdict = viewcert.verify(tracks)
     print(verdict.report())
     verdict.save(folder / "certificate.json")
-    viewcert.check(folder / "certificate.json", tracks)
+    viewcert.check(folder / "certificate.json", tracks, model="calibrated")
 
     # A list of images for every part that is more than one camera.
     exported = viewcert.export(verdict, folder / "parts")

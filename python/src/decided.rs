@@ -261,6 +261,10 @@ pub(crate) fn decide(
     let start = Instant::now();
     let decided = job.run(py, move || viewcert::decide(&asked.graph, &options))?;
     let verdict = decided.map_err(|error| of_deciding(&error))?;
+    if wanted.prime.is_some() && verdict.prime().is_none() {
+        let note = "prime is not used: contraction and counting decide, without residues";
+        Arc::make_mut(&mut input).notes.push(note.to_owned());
+    }
     Ok(Decided::new(input, verdict, &wanted, start.elapsed()))
 }
 

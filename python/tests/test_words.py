@@ -94,7 +94,7 @@ def test_words(program: str, python: str) -> None:
 def test_messages_of_files(tmp_path: pathlib.Path) -> None:
     path = tmp_path / "table.csv"
     contents = {
-        "a.jpg b.jpg\nb.jpg b.jpg\n": "skip_loops=True",
+        "a.jpg b.jpg\nb.jpg c.jpg\na.jpg c.jpg\nb.jpg b.jpg\n": "skip_loops=True",
         "0 1 2 3\n1 2 3\n2 3\n": "format='openmvg-pairs'",
     }
     for text, word in contents.items():

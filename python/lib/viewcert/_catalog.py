@@ -93,7 +93,7 @@ def catalog(
     >>> import viewcert
     >>> from collections import Counter
     >>> Counter(entry.value for entry in viewcert.catalog(6))
-    Counter({'not-finite-solvable': 5, 'solvable': 4})
+    Counter({'not-finite-solvable': 5, 'solvable': 3, 'finite-solvable': 1})
     """
     return map(
         _entry,
