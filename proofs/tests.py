@@ -911,7 +911,7 @@ def both(program, verify, folder):
     ):
         graph.write_text(text_of(pairs))
         subprocess.run([verify, graph, "--model", model, "--certificate", certificate, "--proof", proof], capture_output=True)
-        done = check()
+        done = check("--model", model)
         assert done.returncode == 0 and done.stdout.split("CHECKED ")[1:] == [line + "\n" for line in said], done
     whole = proof.read_text()
     proof.write_text(whole.replace("claim 18", "claim 19"))
