@@ -148,7 +148,7 @@ mod the_page {
     }
 
     /// Labels in the order of the nodes, and the edges.
-    pub type Listed = (Vec<String>, BTreeSet<(usize, usize)>);
+    pub(super) type Listed = (Vec<String>, BTreeSet<(usize, usize)>);
 
     fn numbered(pairs: &[(String, String)], singles: &[String]) -> Option<Listed> {
         let mut labels: Vec<String> = pairs
@@ -174,7 +174,7 @@ mod the_page {
     }
 
     /// The pairs of all lines, without the first one if it is a head.
-    pub fn read(bytes: &[u8], head: bool) -> Option<Listed> {
+    pub(super) fn read(bytes: &[u8], head: bool) -> Option<Listed> {
         let (mut pairs, mut singles) = (Vec::new(), Vec::new());
         let mut left = usize::from(head);
         for line in lines(bytes)? {

@@ -4,11 +4,11 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 /// Chromium, or what goes by its name.
-pub struct Browser(String);
+pub(crate) struct Browser(String);
 
 impl Browser {
     /// The browser that is installed here.
-    pub fn find() -> Self {
+    pub(crate) fn find() -> Self {
         for name in ["chromium", "chromium-browser", "google-chrome", "chrome"] {
             let found = Command::new(name)
                 .arg("--version")
@@ -24,7 +24,7 @@ impl Browser {
 
     /// The elements of a page as they are when all has run, and what went to standard error; `view` is
     /// the fragment of the address.
-    pub fn dump(&self, path: &Path, view: &str) -> (String, String) {
+    pub(crate) fn dump(&self, path: &Path, view: &str) -> (String, String) {
         let profile = tempfile::tempdir().unwrap();
         let output = Command::new(&self.0)
             .args([

@@ -2,20 +2,20 @@
 
 #![allow(dead_code)] // Each test file uses its own part.
 
-pub mod browser;
-pub mod schema;
+pub(crate) mod browser;
+pub(crate) mod schema;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
 /// Fails a test that lacks something. A test that needs more than cargo has the attribute
 /// `#[ignore = "needs ..."]`: it never passes because something is absent.
-pub fn absent(what: &str) -> ! {
+pub(crate) fn absent(what: &str) -> ! {
     panic!("{what}; tests that need more than cargo are #[ignore = \"needs ...\"]")
 }
 
 /// Mounts a file system, which needs root.
-pub fn mount(options: &[&str], place: &Path) {
+pub(crate) fn mount(options: &[&str], place: &Path) {
     let mount = Command::new("mount").args(options).arg(place).output();
     match mount {
         Ok(mount) if mount.status.success() => {}
@@ -29,7 +29,7 @@ pub fn mount(options: &[&str], place: &Path) {
 
 /// Has a small file system prepared, makes it read-only, and has a look at it; needs root.
 #[cfg(target_os = "linux")]
-pub fn on_read_only(
+pub(crate) fn on_read_only(
     prepare: impl FnOnce(&Path),
     look: impl FnOnce(&Path) + std::panic::UnwindSafe,
 ) {
@@ -48,7 +48,7 @@ pub fn on_read_only(
 }
 
 /// The root of the repository, from whichever of its packages.
-pub fn root() -> &'static Path {
+pub(crate) fn root() -> &'static Path {
     let package = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut above = package.ancestors();
     above
@@ -57,7 +57,7 @@ pub fn root() -> &'static Path {
 }
 
 /// A program that has been built beside the tests.
-pub fn program(name: &str) -> PathBuf {
+pub(crate) fn program(name: &str) -> PathBuf {
     let test = std::env::current_exe().unwrap();
     let programs = test.parent().and_then(Path::parent).unwrap();
     let path = programs.join(format!("{name}{}", std::env::consts::EXE_SUFFIX));
@@ -71,7 +71,7 @@ pub fn program(name: &str) -> PathBuf {
 
 /// The folder with the published graphs and tables, which is not part of the repository:
 /// `VIEWCERT_DATA`, or `../shared/data`. `tests/data.sh` says where its files come from.
-pub fn data() -> PathBuf {
+pub(crate) fn data() -> PathBuf {
     let beside = || root().join("../shared/data");
     let path = std::env::var_os("VIEWCERT_DATA").map_or_else(beside, PathBuf::from);
     if !path.is_dir() {
@@ -81,7 +81,7 @@ pub fn data() -> PathBuf {
 }
 
 /// The folder with databases of COLMAP, which is not part of the repository either.
-pub fn samples() -> PathBuf {
+pub(crate) fn samples() -> PathBuf {
     let path = data().join("colmap");
     if !path.is_dir() {
         absent(&format!("no databases are at {}", path.display()));
@@ -91,7 +91,7 @@ pub fn samples() -> PathBuf {
 
 /// Biconnected graphs with the given numbers of nodes and edges from nauty's geng, a graph6
 /// line each.
-pub fn geng(nodes: usize, edges: usize) -> String {
+pub(crate) fn geng(nodes: usize, edges: usize) -> String {
     let made = nauty(
         "geng",
         &["-Cq", &nodes.to_string(), &format!("{edges}:{edges}")],
@@ -100,13 +100,13 @@ pub fn geng(nodes: usize, edges: usize) -> String {
 }
 
 /// Connected graphs with so many nodes from nauty's geng, a graph6 line each.
-pub fn geng_connected(nodes: usize) -> String {
+pub(crate) fn geng_connected(nodes: usize) -> String {
     let made = nauty("geng", &["-cq", &nodes.to_string()]);
     String::from_utf8(made.stdout).unwrap()
 }
 
 /// A run of a program of nauty.
-pub fn nauty(program: &str, arguments: &[&str]) -> Output {
+pub(crate) fn nauty(program: &str, arguments: &[&str]) -> Output {
     for name in [program.to_owned(), format!("nauty-{program}")] {
         if let Ok(made) = Command::new(&name).args(arguments).output() {
             assert!(made.status.success(), "{name} {arguments:?}");
@@ -119,7 +119,7 @@ pub fn nauty(program: &str, arguments: &[&str]) -> Output {
 }
 
 /// Python: `VIEWCERT_PYTHON` names an interpreter with packages, if `python3` is not one.
-pub fn python() -> Command {
+pub(crate) fn python() -> Command {
     let python = std::env::var_os("VIEWCERT_PYTHON").unwrap_or_else(|| "python3".into());
     let mut command = Command::new(python);
     command.env("PYTHONDONTWRITEBYTECODE", "1");
@@ -127,7 +127,7 @@ pub fn python() -> Command {
 }
 
 /// The nodes and edges of the rows of Table 1, and the counts of the paper.
-pub const TABLE_1: [(usize, usize, usize, usize); 8] = [
+pub(crate) const TABLE_1: [(usize, usize, usize, usize); 8] = [
     (3, 3, 1, 1),
     (4, 5, 1, 1),
     (5, 6, 2, 1),
@@ -139,7 +139,7 @@ pub const TABLE_1: [(usize, usize, usize, usize); 8] = [
 ];
 
 /// A run of the program.
-pub struct Run {
+pub(crate) struct Run {
     pub code: i32,
     pub out: String,
     pub err: String,
@@ -155,42 +155,42 @@ impl Run {
     }
 
     /// The JSON objects on standard output.
-    pub fn json(&self) -> Vec<serde_json::Value> {
+    pub(crate) fn json(&self) -> Vec<serde_json::Value> {
         let line = |line| serde_json::from_str(line).unwrap();
         self.out.lines().map(line).collect()
     }
 }
 
 /// Runs `verify`.
-pub fn verify(arguments: &[&str]) -> Run {
+pub(crate) fn verify(arguments: &[&str]) -> Run {
     run("verify", arguments)
 }
 
 /// Runs a program that has been built beside the tests.
-pub fn run(name: &str, arguments: &[&str]) -> Run {
+pub(crate) fn run(name: &str, arguments: &[&str]) -> Run {
     let mut command = Command::new(program(name));
     let command = command.args(arguments).stdin(Stdio::null());
     Run::new(command.output().unwrap())
 }
 
 /// Runs `viewcert-check`.
-pub fn first_checker(arguments: &[&str]) -> Run {
+pub(crate) fn first_checker(arguments: &[&str]) -> Run {
     run("viewcert-check", arguments)
 }
 
 /// Runs the second checker.
-pub fn second_checker(arguments: &[&str]) -> Run {
+pub(crate) fn second_checker(arguments: &[&str]) -> Run {
     let checker = root().join("crates/check/second/check.py");
     Run::new(python().arg(checker).args(arguments).output().unwrap())
 }
 
 /// Runs `verify` with something on standard input.
-pub fn verify_with(input: &[u8], arguments: &[&str]) -> Run {
+pub(crate) fn verify_with(input: &[u8], arguments: &[&str]) -> Run {
     run_with("verify", input, arguments)
 }
 
 /// Runs a program that has been built beside the tests, with something on standard input.
-pub fn run_with(name: &str, input: &[u8], arguments: &[&str]) -> Run {
+pub(crate) fn run_with(name: &str, input: &[u8], arguments: &[&str]) -> Run {
     use std::io::Write;
     let mut child = Command::new(program(name))
         .args(arguments)
@@ -211,6 +211,6 @@ pub fn run_with(name: &str, input: &[u8], arguments: &[&str]) -> Run {
 }
 
 /// The nodes 0 .. n-1 of a cycle, as an edge list.
-pub fn cycle(n: usize) -> String {
+pub(crate) fn cycle(n: usize) -> String {
     (0..n).map(|v| format!("{v} {}\n", (v + 1) % n)).collect()
 }

@@ -4,7 +4,7 @@ use super::Run;
 use serde_json::{Value, json};
 
 /// The schema of all JSON lines.
-pub fn schema() -> jsonschema::Validator {
+pub(crate) fn schema() -> jsonschema::Validator {
     let schema = include_str!("../../docs/report.schema.json");
     let schema: Value = serde_json::from_str(schema).unwrap();
     assert!(jsonschema::meta::is_valid(&schema));
@@ -12,7 +12,7 @@ pub fn schema() -> jsonschema::Validator {
 }
 
 /// Holds every line of a run against the schema; there has to be one.
-pub fn valid(schema: &jsonschema::Validator, run: &Run) -> Vec<Value> {
+pub(crate) fn valid(schema: &jsonschema::Validator, run: &Run) -> Vec<Value> {
     assert!(run.code <= 1, "{}", run.err);
     let lines = run.json();
     assert!(!lines.is_empty());
@@ -42,7 +42,11 @@ fn places(value: &Value, at: &str, found: &mut Vec<String>) {
 }
 
 /// A member more in any object, another type in any leaf, and the lack of a member are refused.
-pub fn mutilations_are_refused(schema: &jsonschema::Validator, line: &Value, required: &[&str]) {
+pub(crate) fn mutilations_are_refused(
+    schema: &jsonschema::Validator,
+    line: &Value,
+    required: &[&str],
+) {
     let mut found = Vec::new();
     places(line, "", &mut found);
     assert!(found.len() > 4);
@@ -64,7 +68,7 @@ pub fn mutilations_are_refused(schema: &jsonschema::Validator, line: &Value, req
 }
 
 /// Holds a run of records of a kind against the schema, and that against changes of its first line.
-pub fn keeps_to(kind: &str, run: &Run, required: &[&str]) -> Vec<Value> {
+pub(crate) fn keeps_to(kind: &str, run: &Run, required: &[&str]) -> Vec<Value> {
     let schema = schema();
     let lines = valid(&schema, run);
     let version = env!("CARGO_PKG_VERSION");

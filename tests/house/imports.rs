@@ -6,11 +6,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// A module by the names on the way to it; the crate itself has none.
-pub type Module = Vec<String>;
+pub(super) type Module = Vec<String>;
 
 /// For every module of a crate those it imports from; `files` are under `src`. What the head of a folder
 /// takes from the files of its folder does not count: it stands on them, and may lend them its types.
-pub fn imports(src: &Path, files: &[PathBuf]) -> BTreeMap<Module, BTreeSet<Module>> {
+pub(super) fn imports(src: &Path, files: &[PathBuf]) -> BTreeMap<Module, BTreeSet<Module>> {
     let modules: BTreeMap<Module, &PathBuf> =
         files.iter().map(|file| (module(src, file), file)).collect();
     modules
@@ -29,7 +29,7 @@ pub fn imports(src: &Path, files: &[PathBuf]) -> BTreeMap<Module, BTreeSet<Modul
 
 /// The modules that are left when again and again all are taken away that import none of the others:
 /// those of circles, and those that import them.
-pub fn circles(mut imports: BTreeMap<Module, BTreeSet<Module>>) -> BTreeSet<Module> {
+pub(super) fn circles(mut imports: BTreeMap<Module, BTreeSet<Module>>) -> BTreeSet<Module> {
     loop {
         let left: BTreeSet<Module> = imports.keys().cloned().collect();
         imports.retain(|_, imported| !imported.is_disjoint(&left));

@@ -13,7 +13,7 @@ use viewcert::{Graph, Strength};
 /// at least. Then rank required and rank fall short of each other by the same number here
 /// and in the union of the whole parts and the pairs.
 #[derive(Clone, Debug)]
-pub struct Condensation {
+pub(crate) struct Condensation {
     /// The nodes, increasing; the graph has their numbers in this list.
     pub nodes: Vec<u32>,
     /// Chains and pairs.
@@ -27,7 +27,7 @@ pub struct Condensation {
 impl Condensation {
     /// Condenses parts with given terminals, which are sorted here, and pairs; `alone` are further
     /// nodes, which may have no pair. O(t log t) for t terminals.
-    pub fn new(
+    pub(crate) fn new(
         mut terminals: Vec<Vec<u32>>,
         pairs: impl Iterator<Item = (u32, u32)> + Clone,
         alone: impl Iterator<Item = u32>,
@@ -57,7 +57,7 @@ impl Condensation {
     /// The same where some of the parts have a known scale: all displacements in them are known.
     /// Nothing changes if there are none. O(edges times parts of a node).
     #[must_use]
-    pub fn with_scales(mut self, parts: &Parts) -> Self {
+    pub(crate) fn with_scales(mut self, parts: &Parts) -> Self {
         let edges = self.graph.edges().iter().copied();
         let of = |v: u32| self.nodes[v as usize];
         let known = edges.filter(|&(i, j)| parts.is_displacement((of(i), of(j))));
@@ -66,7 +66,7 @@ impl Condensation {
     }
 
     /// The question about this graph, or one with further edges.
-    pub fn options(&self, options: &Options) -> Options {
+    pub(crate) fn options(&self, options: &Options) -> Options {
         if self.known.is_empty() {
             return options.clone();
         }
@@ -79,7 +79,7 @@ impl Condensation {
     ///
     /// # Errors
     /// Those of [`decide`].
-    pub fn freedom(
+    pub(crate) fn freedom(
         &self,
         more: impl IntoIterator<Item = (u32, u32)>,
         options: &Options,
@@ -89,7 +89,7 @@ impl Condensation {
     }
 
     /// The same with some nodes in the place of others, pair by pair: two nodes become one.
-    pub fn merged(&self, nodes: &[(u32, u32)]) -> Self {
+    pub(crate) fn merged(&self, nodes: &[(u32, u32)]) -> Self {
         let pairs = nodes.iter().map(|&pair| self.pair(pair));
         let one: HashMap<u32, u32> = pairs.map(|(a, b)| (b, a)).collect();
         let of = |v: u32| one.get(&v).copied().unwrap_or(v);
@@ -109,12 +109,12 @@ impl Condensation {
     }
 
     /// The number of a node, if it is here.
-    pub fn number(&self, node: u32) -> Option<u32> {
+    pub(crate) fn number(&self, node: u32) -> Option<u32> {
         self.nodes.binary_search(&node).ok().map(|k| k as u32)
     }
 
     /// A pair of nodes that are here, as nodes of the graph, the smaller one first.
-    pub fn pair(&self, (a, b): (u32, u32)) -> (u32, u32) {
+    pub(crate) fn pair(&self, (a, b): (u32, u32)) -> (u32, u32) {
         let at = |v| self.number(v).expect("a node of the condensation");
         (at(a).min(at(b)), at(a).max(at(b)))
     }
@@ -133,7 +133,7 @@ pub(crate) fn chain(terminals: &[u32]) -> impl Iterator<Item = (u32, u32)> {
 ///
 /// # Panics
 /// If a part has fewer than two nodes.
-pub fn terminals(parts: &[&[u32]], others: impl Iterator<Item = u32>) -> Vec<Vec<u32>> {
+pub(crate) fn terminals(parts: &[&[u32]], others: impl Iterator<Item = u32>) -> Vec<Vec<u32>> {
     let mut marked: Vec<u32> = parts.iter().flat_map(|part| part.iter().copied()).collect();
     marked.sort_unstable();
     let twice = marked.windows(2).filter(|two| two[0] == two[1]);
@@ -152,19 +152,19 @@ pub fn terminals(parts: &[&[u32]], others: impl Iterator<Item = u32>) -> Vec<Vec
 }
 
 /// A graph without some of its edges, which are given increasing. O(m log k).
-pub fn without(graph: &Graph, gone: &[(u32, u32)]) -> Graph {
+pub(crate) fn without(graph: &Graph, gone: &[(u32, u32)]) -> Graph {
     let left = graph.edges().iter().copied();
     let left = left.filter(|pair| gone.binary_search(pair).is_err());
     Graph::new(graph.nodes() as u32, left).expect("edges of a graph")
 }
 
 /// A graph with further edges.
-pub fn with(graph: &Graph, more: impl IntoIterator<Item = (u32, u32)>) -> Graph {
+pub(crate) fn with(graph: &Graph, more: impl IntoIterator<Item = (u32, u32)>) -> Graph {
     let edges = graph.edges().iter().copied().chain(more);
     Graph::new(graph.nodes() as u32, edges).expect("edges between its nodes")
 }
 
 /// By how much the rank falls short of that of a solvable graph.
-pub fn shortfall(verdict: &Verdict) -> usize {
+pub(crate) fn shortfall(verdict: &Verdict) -> usize {
     verdict.required - verdict.rank
 }

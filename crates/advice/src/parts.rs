@@ -193,7 +193,7 @@ pub(crate) struct Alone {
 
 impl Alone {
     /// Some edges on some nodes, both increasing.
-    pub fn new(nodes: &[u32], edges: &[(u32, u32)]) -> Self {
+    pub(crate) fn new(nodes: &[u32], edges: &[(u32, u32)]) -> Self {
         let number: HashMap<u32, u32> = nodes.iter().copied().zip(0..).collect();
         let edges = edges.iter().map(|(i, j)| (number[i], number[j]));
         Self {

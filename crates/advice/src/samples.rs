@@ -11,7 +11,7 @@ use viewcert::graph::Displacements;
 use viewcert::{Model, Verdict, decide};
 
 /// Random graphs of 4 to 9 nodes, sparse ones and dense ones.
-pub fn graphs(count: u64) -> impl Iterator<Item = Graph> {
+pub(crate) fn graphs(count: u64) -> impl Iterator<Item = Graph> {
     (0..count).map(|seed| {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let nodes = random.random_range(4..10);
@@ -25,7 +25,7 @@ pub fn graphs(count: u64) -> impl Iterator<Item = Graph> {
 }
 
 /// Clusters of four or five nodes, each a complete graph, and random pairs besides.
-pub fn clusters(count: u64) -> impl Iterator<Item = Graph> {
+pub(crate) fn clusters(count: u64) -> impl Iterator<Item = Graph> {
     (0..count).map(|seed| {
         let mut random = ChaCha8Rng::seed_from_u64(1000 + seed);
         let clusters = random.random_range(2..4);
@@ -54,7 +54,7 @@ pub fn clusters(count: u64) -> impl Iterator<Item = Graph> {
 }
 
 /// Camera-point graphs: four to six cameras, points that two to four of them see.
-pub fn tracks(count: u64) -> impl Iterator<Item = Graph> {
+pub(crate) fn tracks(count: u64) -> impl Iterator<Item = Graph> {
     (0..count).map(|seed| {
         let mut random = ChaCha8Rng::seed_from_u64(2000 + seed);
         let cameras: u32 = random.random_range(4..7);
@@ -72,7 +72,7 @@ pub fn tracks(count: u64) -> impl Iterator<Item = Graph> {
 
 /// Camera-point graphs in two groups of cameras, with few tracks between these, and frames of two or
 /// three cameras of any groups.
-pub fn frames(count: u64) -> impl Iterator<Item = (Graph, Displacements)> {
+pub(crate) fn frames(count: u64) -> impl Iterator<Item = (Graph, Displacements)> {
     (0..count).map(|seed| {
         let mut random = ChaCha8Rng::seed_from_u64(4000 + seed);
         let cameras: u32 = random.random_range(6..11);
@@ -106,7 +106,7 @@ pub fn frames(count: u64) -> impl Iterator<Item = (Graph, Displacements)> {
 
 /// Sequences of cameras, each paired with the next two to four, some pairs missing and some further
 /// ones, in any order of names.
-pub fn sequences(count: u64, nodes: u32) -> impl Iterator<Item = Graph> {
+pub(crate) fn sequences(count: u64, nodes: u32) -> impl Iterator<Item = Graph> {
     (0..count).map(move |seed| {
         let mut random = ChaCha8Rng::seed_from_u64(3000 + seed);
         let mut names: Vec<u32> = (0..nodes).collect();
@@ -132,17 +132,17 @@ pub fn sequences(count: u64, nodes: u32) -> impl Iterator<Item = Graph> {
 }
 
 /// The question in a model.
-pub fn options(model: Model) -> Options {
+pub(crate) fn options(model: Model) -> Options {
     Options::default().question(Question::without_solutions(model))
 }
 
 /// The verdict in a model.
-pub fn verdict(graph: &Graph, model: Model) -> Verdict {
+pub(crate) fn verdict(graph: &Graph, model: Model) -> Verdict {
     decide(graph, &options(model)).unwrap()
 }
 
 /// The verdict, its parts, and their joints.
-pub fn found(graph: &Graph, model: Model) -> (Verdict, Parts, Joints) {
+pub(crate) fn found(graph: &Graph, model: Model) -> (Verdict, Parts, Joints) {
     let verdict = verdict(graph, model);
     let parts = Parts::new(graph, &verdict);
     let joints = joints(
@@ -158,7 +158,7 @@ pub fn found(graph: &Graph, model: Model) -> (Verdict, Parts, Joints) {
 }
 
 /// Whether some nodes lie in one component.
-pub fn together(graph: &Graph, model: Model, nodes: &[u32]) -> bool {
+pub(crate) fn together(graph: &Graph, model: Model, nodes: &[u32]) -> bool {
     let verdict = verdict(graph, model);
     verdict.components.iter().any(|component| {
         let all = component.nodes();

@@ -56,7 +56,7 @@ impl Ring for Field {
 }
 
 impl Field {
-    pub fn new(p: u64) -> Checked<Field> {
+    pub(crate) fn new(p: u64) -> Checked<Field> {
         ensure!(
             (5..1 << 62).contains(&p) && is_prime(p),
             "{p} is not a prime with 5 <= p < 2^62"
@@ -78,15 +78,15 @@ impl Field {
     }
 
     /// The element with this residue (any integer is fine).
-    pub fn element(&self, residue: u64) -> u64 {
+    pub(crate) fn element(&self, residue: u64) -> u64 {
         ((u128::from(residue) << 64) % u128::from(self.p)) as u64
     }
 
-    pub fn signed(&self, value: i128) -> u64 {
+    pub(crate) fn signed(&self, value: i128) -> u64 {
         self.element(value.rem_euclid(i128::from(self.p)) as u64)
     }
 
-    pub fn neg(&self, a: u64) -> u64 {
+    pub(crate) fn neg(&self, a: u64) -> u64 {
         self.sub(0, a)
     }
 
@@ -104,7 +104,7 @@ impl Field {
 
     /// a + a sum of at most `LANES` products (or `SMALL_LANES`, if p < 2^29): one reduction, to
     /// below p + 12 p^2 / 2^64 < 4 p (or to p at most).
-    pub fn add_products(&self, a: u64, products: u128) -> u64 {
+    pub(crate) fn add_products(&self, a: u64, products: u128) -> u64 {
         let sum = self.reduce(products);
         self.add(a, self.below(sum.min(sum.wrapping_sub(2 * self.p))))
     }
@@ -121,7 +121,7 @@ impl Field {
     }
 
     /// The element with the value of a decimal integer (section 1: *big*).
-    pub fn decimal(&self, text: &str) -> u64 {
+    pub(crate) fn decimal(&self, text: &str) -> u64 {
         let digits = text.strip_prefix('-').unwrap_or(text).as_bytes();
         let value = digits.chunks(18).fold(0, |value, digits| {
             let part = |part: u64, digit: &u8| 10 * part + u64::from(digit - b'0');
@@ -136,7 +136,7 @@ impl Field {
     }
 
     /// The inverse; 0 for 0.
-    pub fn inverse(&self, a: u64) -> u64 {
+    pub(crate) fn inverse(&self, a: u64) -> u64 {
         self.pow(a, self.p - 2)
     }
 }

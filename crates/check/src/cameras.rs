@@ -17,7 +17,7 @@ pub(crate) struct Stream {
 impl Stream {
     /// The stream of a draw of cameras ("draw") or flows ("flow"), from the hashes of the graph and
     /// of the core.
-    pub fn new(label: &str, hashes: [&[u8; 32]; 2], seed: u64, draw: u64) -> Stream {
+    pub(crate) fn new(label: &str, hashes: [&[u8; 32]; 2], seed: u64, draw: u64) -> Stream {
         let mut key = Sha256::new();
         key.update(format!("viewcert {label} 2\n"));
         hashes.iter().for_each(|hash| key.update(hash));
@@ -26,7 +26,7 @@ impl Stream {
         Stream::from_key(&key.finalize().into())
     }
 
-    pub fn from_key(key: &[u8; 32]) -> Stream {
+    pub(crate) fn from_key(key: &[u8; 32]) -> Stream {
         let word = |k| u32::from_le_bytes(std::array::from_fn(|byte| key[4 * k + byte]));
         Stream {
             key: std::array::from_fn(word),
@@ -45,7 +45,7 @@ impl Stream {
 
     /// Uniform from 0 to `limit` - 1 (`limit` >= 1): as many low bits of a word as limit - 1 has,
     /// until below.
-    pub fn below(&mut self, limit: u64) -> u64 {
+    pub(crate) fn below(&mut self, limit: u64) -> u64 {
         let mask = (limit - 1)
             .checked_ilog2()
             .map_or(0, |top| u64::MAX >> (63 - top));

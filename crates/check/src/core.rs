@@ -36,7 +36,7 @@ pub(crate) struct Joined<'a> {
 impl Core {
     /// The core of members (section 6; theory, Theorems 4.4, 4.11, 13.11 and 13.18). The name of a
     /// member is for people.
-    pub fn new(
+    pub(crate) fn new(
         members: &[Joined],
         name: impl Fn(usize) -> String,
         setting: &Setting,
@@ -90,19 +90,19 @@ impl Core {
     }
 
     /// The hashes to which draws for the core are bound (section 4).
-    pub fn hashes<'h>(&'h self, setting: &'h Setting) -> [&'h [u8; 32]; 2] {
+    pub(crate) fn hashes<'h>(&'h self, setting: &'h Setting) -> [&'h [u8; 32]; 2] {
         [&setting.sha256, &self.sha256]
     }
 
     /// The rank at which it is solvable up to finitely many solutions: one more if it holds a known
     /// displacement (section 6; theory, Theorem 13.18).
-    pub fn required(&self, setting: &Setting) -> i64 {
+    pub(crate) fn required(&self, setting: &Setting) -> i64 {
         setting.model.required(self.nodes) + i64::from(!self.scales.is_empty())
     }
 
     /// Counts what evidence costs in any case: cameras are drawn for all nodes, and something is
     /// computed for all edges.
-    pub fn charge_draw(&self, setting: &Setting) -> Checked<()> {
+    pub(crate) fn charge_draw(&self, setting: &Setting) -> Checked<()> {
         let size = self.nodes + self.edges.len();
         setting.meter.charge(50 * SPARSE * size as u64)
     }

@@ -63,7 +63,7 @@ pub(crate) struct Sizes {
 }
 
 impl Sizes {
-    pub fn new(structure: &Structure, piece: &Part, core: &Core) -> Sizes {
+    pub(crate) fn new(structure: &Structure, piece: &Part, core: &Core) -> Sizes {
         let nodes = structure.nodes(piece).len();
         Sizes {
             nodes,
@@ -74,7 +74,7 @@ impl Sizes {
 
     /// The rank of the piece if that of the core is given: the same number is missing to what is
     /// required (theory, Corollaries 4.5, 4.12 and 13.12, Theorem 13.18).
-    pub fn of_piece(&self, rank: i64) -> i64 {
+    pub(crate) fn of_piece(&self, rank: i64) -> i64 {
         self.required - (self.core_required - rank)
     }
 }

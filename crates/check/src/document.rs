@@ -275,7 +275,7 @@ pub(crate) struct Kernel {
 }
 
 impl Evidence {
-    pub fn kind(&self) -> &'static str {
+    pub(crate) fn kind(&self) -> &'static str {
         match self {
             Evidence::Minor(_) => "minor",
             Evidence::IntegerMinor(_) => "integer-minor",

@@ -188,7 +188,7 @@ impl<'t> Graph6<'t> {
 
 impl GraphName {
     /// The graph that the certificate holds.
-    pub fn held(&self) -> Result<Option<Graph>, Unreadable> {
+    pub(crate) fn held(&self) -> Result<Option<Graph>, Unreadable> {
         let held = self.graph6.as_ref();
         held.map(|line| Graph::from_graph6(line.as_bytes()))
             .transpose()
@@ -196,7 +196,7 @@ impl GraphName {
 
     /// The graph that the certificate is about, with its hash: the given one, or else the one that
     /// it holds (section 3).
-    pub fn find<'g>(&self, given: Option<&'g Graph>) -> Checked<(Cow<'g, Graph>, [u8; 32])> {
+    pub(crate) fn find<'g>(&self, given: Option<&'g Graph>) -> Checked<(Cow<'g, Graph>, [u8; 32])> {
         let held = self.held()?;
         ensure!(
             match (given, &held) {

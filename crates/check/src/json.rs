@@ -197,7 +197,7 @@ impl<T: Digits> Value for Big<T> {
 pub(crate) struct Name<'de>(Cow<'de, str>);
 
 impl Name<'_> {
-    pub fn as_str(&self) -> &str {
+    pub(crate) fn as_str(&self) -> &str {
         &self.0
     }
 }

@@ -36,7 +36,7 @@ pub(crate) struct Meter {
 }
 
 impl Meter {
-    pub fn new(limits: &Limits) -> Meter {
+    pub(crate) fn new(limits: &Limits) -> Meter {
         Meter {
             limits: limits.clone(),
             spent: AtomicU64::new(0),
@@ -44,7 +44,7 @@ impl Meter {
     }
 
     /// Counts operations; to be called before they are performed.
-    pub fn charge(&self, operations: u64) -> Checked<()> {
+    pub(crate) fn charge(&self, operations: u64) -> Checked<()> {
         let before = self.spent.fetch_add(operations, Ordering::Relaxed);
         let most = self.limits.operations;
         match before.checked_add(operations) {
@@ -56,7 +56,7 @@ impl Meter {
         }
     }
 
-    pub fn allow_core(&self, nodes: usize) -> Checked<()> {
+    pub(crate) fn allow_core(&self, nodes: usize) -> Checked<()> {
         allow(
             nodes as u64,
             self.limits.core,
@@ -65,11 +65,11 @@ impl Meter {
         )
     }
 
-    pub fn allow_flows(&self, flows: usize) -> Checked<()> {
+    pub(crate) fn allow_flows(&self, flows: usize) -> Checked<()> {
         allow(flows as u64, self.limits.flows, "flows", "--max-flows")
     }
 
-    pub fn allow_bits(&self, bits: u64) -> Checked<()> {
+    pub(crate) fn allow_bits(&self, bits: u64) -> Checked<()> {
         allow(bits, self.limits.bits, "bits of an integer", "--max-bits")
     }
 }

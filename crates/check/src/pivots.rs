@@ -13,7 +13,7 @@ pub(crate) struct Pivots<'p> {
 
 impl<'p> Pivots<'p> {
     /// Sees that the lists are as long as each other, and each index is there once.
-    pub fn new(
+    pub(crate) fn new(
         rows: &'p [usize],
         cols: &'p [usize],
         [height, width]: [usize; 2],
@@ -36,7 +36,11 @@ impl<'p> Pivots<'p> {
     }
 
     /// Pivots of J_P of a core.
-    pub fn of_jacobian(rows: &'p [usize], cols: &'p [usize], core: &Core) -> Checked<Pivots<'p>> {
+    pub(crate) fn of_jacobian(
+        rows: &'p [usize],
+        cols: &'p [usize],
+        core: &Core,
+    ) -> Checked<Pivots<'p>> {
         Pivots::new(rows, cols, [10 * core.edges.len(), 12 * core.nodes])
     }
 }

@@ -29,7 +29,7 @@ pub(crate) struct Setting<'a> {
 
 impl Setting<'_> {
     /// Whether nodes that merge are independent (section 3), as all are in general position.
-    pub fn check_independent(&self, nodes: &[u32]) -> Checked<()> {
+    pub(crate) fn check_independent(&self, nodes: &[u32]) -> Checked<()> {
         ensure!(
             self.vectors
                 .is_none_or(|known| known.are_independent(nodes)),

@@ -43,7 +43,7 @@ pub(crate) struct Structure<'a> {
 impl<'a> Structure<'a> {
     /// Rebuilds all bodies, the known parts before those of the list, and finds which edges each of
     /// them covers (sections 5 and 6); rejects an edge covered twice.
-    pub fn new(
+    pub(crate) fn new(
         graph: &'a Graph,
         setting: &'a Setting<'a>,
         (known, list): (Known, &[Body]),
@@ -113,7 +113,7 @@ impl<'a> Structure<'a> {
 
     /// The part with these final bodies and edges. Whether the edges are loose is for `owners` to
     /// see.
-    pub fn part(&self, bodies: &[u32], edges: &[Pair]) -> Checked<Part> {
+    pub(crate) fn part(&self, bodies: &[u32], edges: &[Pair]) -> Checked<Part> {
         let mut part: Part = bodies.iter().map(|&body| body as usize).collect();
         let is_final = |&&body: &&usize| self.bodies.get(body).is_some_and(Option::is_some);
         let wrong = part.iter().find(|body| !is_final(body));
@@ -142,7 +142,7 @@ impl<'a> Structure<'a> {
 
     /// The parts of a list, which must be a partition of a whole, and the number of its part for
     /// each member of the whole.
-    pub fn partition<'p>(
+    pub(crate) fn partition<'p>(
         &self,
         whole: &Part,
         list: impl Iterator<Item = (&'p Vec<u32>, &'p Vec<Pair>)>,
@@ -155,7 +155,7 @@ impl<'a> Structure<'a> {
     }
 
     /// For each member of a whole the number of its part; rejects parts that are no partition.
-    pub fn owners(&self, whole: &Part, parts: &[Part]) -> Checked<Vec<usize>> {
+    pub(crate) fn owners(&self, whole: &Part, parts: &[Part]) -> Checked<Vec<usize>> {
         let mut owner = vec![usize::MAX; whole.len()];
         for (k, &member) in parts
             .iter()
@@ -196,7 +196,7 @@ impl<'a> Structure<'a> {
         }
     }
 
-    pub fn nodes_of(&self, member: usize) -> &[u32] {
+    pub(crate) fn nodes_of(&self, member: usize) -> &[u32] {
         let edge = || &self.pair(member - self.bodies.len())[..];
         self.bodies
             .get(member)
@@ -204,18 +204,18 @@ impl<'a> Structure<'a> {
     }
 
     /// Whether a member is a body.
-    pub fn is_body(&self, member: usize) -> bool {
+    pub(crate) fn is_body(&self, member: usize) -> bool {
         member < self.bodies.len()
     }
 
     /// Whether a part holds a known displacement.
-    pub fn is_scaled(&self, part: &[usize]) -> bool {
+    pub(crate) fn is_scaled(&self, part: &[usize]) -> bool {
         let scaled = |&member: &usize| self.scaled.get(member).is_some_and(|&scaled| scaled);
         part.iter().any(scaled)
     }
 
     /// The nodes of several members, in increasing order.
-    pub fn nodes(&self, part: &[usize]) -> Vec<u32> {
+    pub(crate) fn nodes(&self, part: &[usize]) -> Vec<u32> {
         let mut nodes = sorted(
             part.iter()
                 .flat_map(|&member| self.nodes_of(member))
@@ -226,7 +226,7 @@ impl<'a> Structure<'a> {
     }
 
     /// Rejects a cycle of pieces (theory, Lemma 4.7).
-    pub fn check_acyclic(&self, pieces: &[Part]) -> Checked<()> {
+    pub(crate) fn check_acyclic(&self, pieces: &[Part]) -> Checked<()> {
         let nodes = self.nodes(&pieces.concat());
         let mut forest: Vec<usize> = (0..nodes.len() + pieces.len()).collect();
         for (k, piece) in pieces.iter().enumerate() {
@@ -244,7 +244,7 @@ impl<'a> Structure<'a> {
 
     /// How many fewer parts there are if scaled ones that share a node are counted as one (theory,
     /// Theorem 13.17).
-    pub fn count_joined(&self, parts: &[Part]) -> usize {
+    pub(crate) fn count_joined(&self, parts: &[Part]) -> usize {
         let scaled: Vec<&Part> = parts.iter().filter(|part| self.is_scaled(part)).collect();
         let mut forest: Vec<usize> = (0..self.graph.nodes() + scaled.len()).collect();
         for (k, part) in scaled.iter().enumerate() {
@@ -263,20 +263,20 @@ impl<'a> Structure<'a> {
 
     /// Whether a member is not only rigid but unique: an edge, or a body that comes from the rules
     /// and what is known.
-    pub fn is_unique(&self, member: usize) -> bool {
+    pub(crate) fn is_unique(&self, member: usize) -> bool {
         self.unique.get(member).is_none_or(|&unique| unique)
     }
 
     /// The rank of a part that is solvable up to finitely many solutions: one more if it holds a
     /// known displacement (section 6; theory, Theorem 13.16).
-    pub fn required(&self, part: &[usize]) -> i64 {
+    pub(crate) fn required(&self, part: &[usize]) -> i64 {
         let nodes = self.nodes(part).len();
         self.setting.model.required(nodes) + i64::from(self.is_scaled(part))
     }
 
     /// What a block contributes to an upper bound (section 7): as many as it requires; with given
     /// vectors by its vertices, and as if it were not scaled if they agree (theory, Theorem 13.22).
-    pub fn block_rank(&self, part: &[usize]) -> i64 {
+    pub(crate) fn block_rank(&self, part: &[usize]) -> i64 {
         let Some(vectors) = self.setting.vectors else {
             return self.required(part);
         };
@@ -288,7 +288,7 @@ impl<'a> Structure<'a> {
 
     /// With given vectors: the rank of what is known within groups between the nodes of a piece,
     /// which is paid for before that of the blocks; nothing without.
-    pub fn group_rank(&self, piece: &[usize]) -> i64 {
+    pub(crate) fn group_rank(&self, piece: &[usize]) -> i64 {
         let beyond = |vectors| {
             let nodes = self.nodes(piece).len() as i64;
             3 * (nodes - self.vertices(vectors, piece))
@@ -305,7 +305,7 @@ impl<'a> Structure<'a> {
     }
 
     /// The core of a part.
-    pub fn core(&self, part: &Part) -> Checked<Core> {
+    pub(crate) fn core(&self, part: &Part) -> Checked<Core> {
         let members = part.iter().map(|&member| Joined {
             nodes: self.nodes_of(member),
             is_body: self.is_body(member),

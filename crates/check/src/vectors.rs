@@ -93,7 +93,7 @@ fn minus(a: Vector, b: Vector) -> Option<Vector> {
 
 impl Vectors {
     /// The vertex of a node.
-    pub fn vertex(&self, node: u32) -> u32 {
+    pub(crate) fn vertex(&self, node: u32) -> u32 {
         self.vertex[node as usize]
     }
 
@@ -105,7 +105,7 @@ impl Vectors {
 
     /// For each of some nodes the position of the first one of its group, if that is earlier, and
     /// the vector from there.
-    pub fn places(&self, nodes: &[u32]) -> Vec<Option<(usize, Vector)>> {
+    pub(crate) fn places(&self, nodes: &[u32]) -> Vec<Option<(usize, Vector)>> {
         let mut first = HashMap::new();
         let place = |(k, &node): (usize, &u32)| {
             let at = *first.entry(self.vertex(node)).or_insert(k);
@@ -115,7 +115,7 @@ impl Vectors {
     }
 
     /// Whether nodes, four at most, are independent.
-    pub fn are_independent(&self, nodes: &[u32]) -> bool {
+    pub(crate) fn are_independent(&self, nodes: &[u32]) -> bool {
         let f = &self.field;
         let places = self.places(nodes).into_iter().flatten();
         let vectors: Vec<[u64; 3]> = places.map(|(_, v)| v.map(|n| f.signed(n))).collect();
@@ -134,7 +134,7 @@ impl Vectors {
     }
 
     /// Whether a block of members with these nodes agrees.
-    pub fn agree<'n>(&self, members: impl Iterator<Item = &'n [u32]>) -> bool {
+    pub(crate) fn agree<'n>(&self, members: impl Iterator<Item = &'n [u32]>) -> bool {
         let mut potentials = Potentials::default();
         let mut pairs = members.flat_map(|nodes| nodes[1..].iter().map(|&node| (nodes[0], node)));
         pairs.all(|(u, v)| {

@@ -26,7 +26,7 @@ pub(super) struct Frames {
 
 impl Frames {
     /// Verifies (B1) and (B2), for a graph with so many nodes.
-    pub fn new(stated: &BaseLines, nodes: usize) -> Checked<Frames> {
+    pub(super) fn new(stated: &BaseLines, nodes: usize) -> Checked<Frames> {
         let (frames, known) = (&stated.frames, &stated.known);
         ensure!(!frames.is_empty(), "there is no frame");
         let mut at = HashMap::new();
@@ -78,7 +78,7 @@ impl Frames {
     }
 
     /// The hash in lower-case hexadecimal digits.
-    pub fn digits(&self) -> String {
+    pub(super) fn digits(&self) -> String {
         let digits = self.sha256.iter();
         digits.map(|byte| format!("{byte:02x}")).collect()
     }

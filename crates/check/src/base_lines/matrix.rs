@@ -42,7 +42,11 @@ enum Kind {
 }
 
 impl<'a> Layout<'a> {
-    pub fn new(frames: &'a Frames, structure: &'a Structure<'a>, nodes: usize) -> Checked<Self> {
+    pub(super) fn new(
+        frames: &'a Frames,
+        structure: &'a Structure<'a>,
+        nodes: usize,
+    ) -> Checked<Self> {
         let members = &structure.everything;
         let all = members.iter().map(|&member| structure.nodes_of(member));
         let size: usize = all.clone().map(<[u32]>::len).sum();
@@ -97,7 +101,7 @@ impl<'a> Layout<'a> {
     }
 
     /// Verifies (B3): a lower bound on the rank; for (B5) where all frames turn about one axis.
-    pub fn check_lower(&self, evidence: &Lower, one_axis: bool) -> Checked<i64> {
+    pub(super) fn check_lower(&self, evidence: &Lower, one_axis: bool) -> Checked<i64> {
         let setting = self.structure.setting;
         setting
             .meter

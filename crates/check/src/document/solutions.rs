@@ -66,7 +66,7 @@ pub(crate) struct Support {
 }
 
 impl Step {
-    pub fn kind(&self) -> &'static str {
+    pub(crate) fn kind(&self) -> &'static str {
         match self {
             Step::Linear(_) => "linear",
             Step::Support(_) => "support",

@@ -22,7 +22,7 @@ pub(crate) struct Dense<'f> {
 impl<'f> Dense<'f> {
     /// Sees that elimination along the diagonal of a square matrix meets no zero; `before` is how
     /// many pivots came before these.
-    pub fn new(
+    pub(crate) fn new(
         field: &'f Field,
         meter: &'f Meter,
         mut rows: Vec<Vec<u64>>,
@@ -56,12 +56,12 @@ impl<'f> Dense<'f> {
     }
 
     /// How many rows and columns there are.
-    pub fn size(&self) -> usize {
+    pub(crate) fn size(&self) -> usize {
         self.rows.len()
     }
 
     /// The combinations of the rows that are N rows, which are given by columns.
-    pub fn solve<const N: usize>(&self, mut rows: Vec<[u64; N]>) -> Checked<Vec<[u64; N]>> {
+    pub(crate) fn solve<const N: usize>(&self, mut rows: Vec<[u64; N]>) -> Checked<Vec<[u64; N]>> {
         let (field, size) = (self.field, self.size());
         self.meter
             .charge(weight(field) * (N * size * size) as u64)?;

@@ -32,7 +32,7 @@ struct Remainder<'a> {
 
 impl<'f> Factors<'f> {
     /// Eliminates along pivots, none of which may vanish, in a matrix that is given by its rows.
-    pub fn new<E: IntoIterator<Item = (usize, u64)>>(
+    pub(crate) fn new<E: IntoIterator<Item = (usize, u64)>>(
         mut head: Echelon<'f>,
         pivots: &Pivots,
         row: impl Fn(usize) -> E,
@@ -64,7 +64,7 @@ impl<'f> Factors<'f> {
 
     /// The combinations of the pivot rows that are N rows, which are given by columns, at the pivot
     /// columns; of these rows the differences are left.
-    pub fn solve<const N: usize>(&self, rows: &mut [[u64; N]]) -> Checked<Vec<[u64; N]>> {
+    pub(crate) fn solve<const N: usize>(&self, rows: &mut [[u64; N]]) -> Checked<Vec<[u64; N]>> {
         let field = self.head.field;
         let mut tail = Vec::new();
         if !self.rows.is_empty() {

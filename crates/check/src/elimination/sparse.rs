@@ -73,7 +73,7 @@ struct EchelonRow {
 }
 
 impl<'f> Echelon<'f> {
-    pub fn new(field: &'f Field, width: usize, meter: &'f Meter) -> Self {
+    pub(crate) fn new(field: &'f Field, width: usize, meter: &'f Meter) -> Self {
         Echelon {
             field,
             meter,
@@ -90,13 +90,13 @@ impl<'f> Echelon<'f> {
     }
 
     /// So that systems can be solved with the rows to come.
-    pub fn solvable(mut self) -> Self {
+    pub(crate) fn solvable(mut self) -> Self {
         self.keeps_multiples = true;
         self
     }
 
     /// How many columns there are.
-    pub fn width(&self) -> usize {
+    pub(crate) fn width(&self) -> usize {
         self.place.len()
     }
 
@@ -121,13 +121,13 @@ impl<'f> Echelon<'f> {
     }
 
     /// How many entries the last row of U has.
-    pub fn last_length(&self) -> usize {
+    pub(crate) fn last_length(&self) -> usize {
         self.rows.last().map_or(0, |row| row.reduced.len())
     }
 
     /// Adds a row unless it vanishes at the prescribed pivot (or altogether) once it is reduced by
     /// the rows before it.
-    pub fn push(
+    pub(crate) fn push(
         &mut self,
         entries: impl IntoIterator<Item = (usize, u64)>,
         pivot: Option<usize>,
@@ -185,7 +185,10 @@ impl<'f> Echelon<'f> {
 
     /// Subtracts multiples of the rows of U so that N rows, which are given by columns, vanish at
     /// the pivots; returns the multiples.
-    pub fn reduce<const N: usize>(&self, rows: &mut [[u64; N]]) -> Checked<Vec<(usize, [u64; N])>> {
+    pub(crate) fn reduce<const N: usize>(
+        &self,
+        rows: &mut [[u64; N]],
+    ) -> Checked<Vec<(usize, [u64; N])>> {
         let field = self.field;
         rows.iter_mut().for_each(|row| to_sums(field, row));
         let (mut multiples, mut entries) = (Vec::new(), 0);
@@ -210,7 +213,7 @@ impl<'f> Echelon<'f> {
 
     /// The combinations of the matrix's rows that are the given N rows at the pivots; of the given
     /// rows the differences are left.
-    pub fn solve<const N: usize>(&self, rows: &mut [[u64; N]]) -> Checked<Vec<[u64; N]>> {
+    pub(crate) fn solve<const N: usize>(&self, rows: &mut [[u64; N]]) -> Checked<Vec<[u64; N]>> {
         let field = self.field;
         let (mut solution, mut entries) = (vec![[0; N]; self.rows.len()], 0);
         for (k, multiple) in self.reduce(rows)? {

@@ -47,7 +47,11 @@ fn digits(number: &Big<String>) -> usize {
 
 impl<'a> Centres<'a> {
     /// Verifies (H1) to (H3).
-    pub fn new(document: &'a Document, graph: &Graph, meter: &Meter) -> Checked<Centres<'a>> {
+    pub(super) fn new(
+        document: &'a Document,
+        graph: &Graph,
+        meter: &Meter,
+    ) -> Checked<Centres<'a>> {
         let (places, nodes) = (&document.centres[..], graph.nodes());
         ensure!(
             places.len() == nodes,
@@ -159,7 +163,7 @@ impl<'a> Centres<'a> {
     }
 
     /// The dimension that the centres of nodes span.
-    pub fn rank(&self, nodes: &[u32]) -> usize {
+    pub(super) fn rank(&self, nodes: &[u32]) -> usize {
         span(
             &self.field,
             nodes.iter().map(|&v| self.residues[v as usize]),
@@ -214,7 +218,7 @@ impl<'a> Centres<'a> {
     }
 
     /// Nodes that span what these do, and no more of them than that takes.
-    pub fn basis(&self, nodes: &[u32]) -> Vec<u32> {
+    pub(super) fn basis(&self, nodes: &[u32]) -> Vec<u32> {
         let mut basis = Vec::new();
         for &v in nodes {
             basis.push(v);
@@ -226,20 +230,25 @@ impl<'a> Centres<'a> {
     }
 
     /// How many operations the points of nodes take modulo a prime.
-    pub fn cost(&self, nodes: &[u32]) -> u64 {
+    pub(super) fn cost(&self, nodes: &[u32]) -> u64 {
         let digits = nodes.iter().flat_map(|&v| &self.places[v as usize]);
         let words = digits.map(|digits| digits.0.len() as u64 / 18 + 1);
         2 * SPARSE * words.sum::<u64>()
     }
 
     /// The gamma of section 14 for the nodes of a core.
-    pub fn bits(&self, nodes: &[u32]) -> u64 {
+    pub(super) fn bits(&self, nodes: &[u32]) -> u64 {
         let places = nodes.iter().flat_map(|&v| &self.places[v as usize]);
         bits(places.map(digits).max().unwrap_or(1)) + self.chart_bits(self.chart)
     }
 
     /// The points of the nodes of a core modulo a prime; nothing if it is left out.
-    pub fn points(&self, field: &Field, nodes: &[u32], core: &Core) -> Option<Vec<[u64; 3]>> {
+    pub(super) fn points(
+        &self,
+        field: &Field,
+        nodes: &[u32],
+        core: &Core,
+    ) -> Option<Vec<[u64; 3]>> {
         let width = if self.model == Model::Affine { 2 } else { 3 };
         let mut points = Vec::with_capacity(nodes.len());
         for &v in nodes {
@@ -259,7 +268,7 @@ impl<'a> Centres<'a> {
     }
 
     /// Verifies what (H4) asks of the centres of nodes that merge.
-    pub fn check_bodies(&self, document: &Document) -> Checked<()> {
+    pub(super) fn check_bodies(&self, document: &Document) -> Checked<()> {
         let nodes = self.places.len() as u32;
         let known = |v: &&u32| **v >= nodes;
         for (k, body) in document.bodies.iter().enumerate() {

@@ -27,7 +27,7 @@ pub(super) struct Members<'a> {
 }
 
 impl<'a> Members<'a> {
-    pub fn new(structure: &'a Structure, sensors: &Sensors) -> Checked<Self> {
+    pub(super) fn new(structure: &'a Structure, sensors: &Sensors) -> Checked<Self> {
         let all = structure.everything.iter();
         let all: Vec<&[u32]> = all.map(|&member| structure.nodes_of(member)).collect();
         let size: usize = all.iter().map(|nodes| nodes.len()).sum();

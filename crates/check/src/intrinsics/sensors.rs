@@ -17,7 +17,7 @@ pub(super) enum Class {
 }
 
 impl Class {
-    pub const ALL: [(Class, &'static str); 4] = [
+    pub(super) const ALL: [(Class, &'static str); 4] = [
         (Class::Known, "known"),
         (Class::Focal, "focal"),
         (Class::FocalAndPoint, "focal+point"),
@@ -47,7 +47,7 @@ pub(super) struct Sensors {
 
 impl Sensors {
     /// (I1).
-    pub fn new(document: &Document, graph: &Graph) -> Checked<Self> {
+    pub(super) fn new(document: &Document, graph: &Graph) -> Checked<Self> {
         let (words, nodes) = (&document.classes, graph.nodes());
         ensure!(
             words.len() == nodes,
@@ -107,7 +107,7 @@ impl Sensors {
     }
 
     /// The hash of the classes.
-    pub fn hash(&self, words: &[String]) -> [u8; 32] {
+    pub(super) fn hash(&self, words: &[String]) -> [u8; 32] {
         let mut hash = Sha256::new();
         hash.update(b"viewcert classes 1\n");
         hash.update((words.len() as u64).to_le_bytes());
@@ -125,17 +125,17 @@ impl Sensors {
     }
 
     /// d of the sensor of a node; a sensor has the number of a node.
-    pub fn unknowns(&self, v: usize) -> usize {
+    pub(super) fn unknowns(&self, v: usize) -> usize {
         self.classes[v].unknowns()
     }
 
     /// The sensors of nodes, each once.
-    pub fn of(&self, nodes: impl IntoIterator<Item = usize>) -> BTreeSet<usize> {
+    pub(super) fn of(&self, nodes: impl IntoIterator<Item = usize>) -> BTreeSet<usize> {
         nodes.into_iter().map(|v| self.of_node[v]).collect()
     }
 
     /// The sum of d over some sensors.
-    pub fn sum<'a>(&self, sensors: impl IntoIterator<Item = &'a usize>) -> i64 {
+    pub(super) fn sum<'a>(&self, sensors: impl IntoIterator<Item = &'a usize>) -> i64 {
         let each = sensors.into_iter().map(|&s| self.unknowns(s) as i64);
         each.sum()
     }

@@ -27,7 +27,7 @@ pub(super) struct System<'a> {
 }
 
 impl<'a> System<'a> {
-    pub fn new(
+    pub(super) fn new(
         members: &'a Members,
         sensors: &'a Sensors,
         field: &'a Field,
@@ -50,7 +50,7 @@ impl<'a> System<'a> {
     }
 
     /// All rows, in their order.
-    pub fn rows(&self) -> Vec<Form> {
+    pub(super) fn rows(&self) -> Vec<Form> {
         let mut rows = Vec::new();
         for (v, held) in self.members.of_node.iter().enumerate() {
             let Some((&first, others)) = held.split_first() else {
@@ -195,7 +195,7 @@ impl<'a> System<'a> {
     }
 
     /// The value of a form at a vector.
-    pub fn value(&self, form: &Form, y: &[u64]) -> u64 {
+    pub(super) fn value(&self, form: &Form, y: &[u64]) -> u64 {
         let terms = form.iter();
         terms.fold(0, |sum, (&column, &x)| {
             self.field.add(sum, self.field.mul(x, y[column]))
@@ -203,7 +203,7 @@ impl<'a> System<'a> {
     }
 
     /// How a member moves: A, b and w.
-    pub fn moved(&self, member: usize, y: &[u64]) -> [u64; 15] {
+    pub(super) fn moved(&self, member: usize, y: &[u64]) -> [u64; 15] {
         std::array::from_fn(|at| match at {
             0..9 => self.value(&self.a(member, at / 3, at % 3), y),
             9..12 => y[self.b(member) + at - 9],
@@ -212,7 +212,7 @@ impl<'a> System<'a> {
     }
 
     /// How a node turns, if it is in a member and stays.
-    pub fn turn(&self, v: usize, y: &[u64]) -> Option<Vector> {
+    pub(super) fn turn(&self, v: usize, y: &[u64]) -> Option<Vector> {
         let first = *self.members.of_node[v].first()?;
         let m = |i: usize, j: usize| self.value(&self.m(first, v, i, j), y);
         let is_skew = OFF

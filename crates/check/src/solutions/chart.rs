@@ -26,7 +26,7 @@ pub(super) struct Chart {
 
 impl Chart {
     /// Verifies a chart of members, which are given by their shared nodes.
-    pub fn new(text: &grammar::Chart, left: &[Vec<u32>], meter: &Meter) -> Checked<Chart> {
+    pub(super) fn new(text: &grammar::Chart, left: &[Vec<u32>], meter: &Meter) -> Checked<Chart> {
         let size: usize = left.iter().map(Vec::len).sum();
         meter.charge(50 * SPARSE * size as u64)?;
         check_members(text, left)?;
@@ -91,13 +91,13 @@ impl Chart {
     }
 
     /// The index of a shared node.
-    pub fn place(&self, name: u32) -> Option<usize> {
+    pub(super) fn place(&self, name: u32) -> Option<usize> {
         self.names.binary_search(&name).ok()
     }
 
     /// The unknown of a chain, or of a half-edge by the number behind those of the chains, at a
     /// node, if its scale is not one.
-    pub fn scale(&self, member: usize, node: usize) -> Option<usize> {
+    pub(super) fn scale(&self, member: usize, node: usize) -> Option<usize> {
         self.scales.get(&(member, node)).copied()
     }
 

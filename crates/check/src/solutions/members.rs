@@ -14,14 +14,14 @@ pub(super) struct Members(Vec<Option<Nodes>>);
 
 impl Members {
     /// Of the nodes of members those count that lie in two members at least.
-    pub fn new(members: Vec<Vec<u32>>) -> Members {
+    pub(super) fn new(members: Vec<Vec<u32>>) -> Members {
         let members = shared(members.into_iter());
         Members(members.into_iter().map(Some).collect())
     }
 
     /// The members that are left, each with those of its nodes that lie in two of them at least, in
     /// increasing order.
-    pub fn left(&self) -> Vec<Vec<u32>> {
+    pub(super) fn left(&self) -> Vec<Vec<u32>> {
         let left = self.0.iter().flatten();
         let left = shared(left.map(|nodes| nodes.iter().copied().collect()));
         left.into_iter()
@@ -30,7 +30,7 @@ impl Members {
     }
 
     /// Makes one member of several.
-    pub fn merge(&mut self, merge: &Merge, meter: &Meter) -> Checked<()> {
+    pub(super) fn merge(&mut self, merge: &Merge, meter: &Meter) -> Checked<()> {
         ensure!(
             merge.with.len() >= 2 && merge.with.is_sorted_by(|a, b| a < b),
             "`with` is not an increasing list of two members or more"
@@ -49,12 +49,12 @@ impl Members {
     }
 
     /// The nodes of a member that is left.
-    pub fn get(&self, number: usize) -> Option<&Nodes> {
+    pub(super) fn get(&self, number: usize) -> Option<&Nodes> {
         self.0.get(number)?.as_ref()
     }
 
     /// The numbers of the members that are left.
-    pub fn numbers(&self) -> impl Iterator<Item = usize> + '_ {
+    pub(super) fn numbers(&self) -> impl Iterator<Item = usize> + '_ {
         (0..self.0.len()).filter(|&number| self.0[number].is_some())
     }
 

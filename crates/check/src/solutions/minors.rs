@@ -16,7 +16,7 @@ pub(super) struct Exponents<'b> {
 
 impl Exponents<'_> {
     /// How many there are; `None` if there are more than 4096.
-    pub fn count(&self) -> Option<usize> {
+    pub(super) fn count(&self) -> Option<usize> {
         let times = |count: usize, &bound: &usize| {
             let count = bound.checked_add(1).and_then(|n| count.checked_mul(n));
             count.filter(|&count| count <= 4096)
@@ -24,17 +24,17 @@ impl Exponents<'_> {
         self.bounds.iter().try_fold(1, times)
     }
 
-    pub fn place(&self, exponent: &[usize]) -> usize {
+    pub(super) fn place(&self, exponent: &[usize]) -> usize {
         let digits = exponent.iter().zip(self.bounds);
         digits.fold(0, |place, (e, bound)| place * (bound + 1) + e)
     }
 
-    pub fn contain(&self, exponent: &[usize]) -> bool {
+    pub(super) fn contain(&self, exponent: &[usize]) -> bool {
         let mut entries = exponent.iter().zip(self.bounds);
         exponent.len() == self.bounds.len() && entries.all(|(e, bound)| e <= bound)
     }
 
-    pub fn all(&self) -> Vec<Vec<usize>> {
+    pub(super) fn all(&self) -> Vec<Vec<usize>> {
         let mut all = vec![Vec::new()];
         for &bound in self.bounds {
             let extend =
@@ -54,7 +54,7 @@ pub(super) struct Place<'a> {
 
 impl Place<'_> {
     /// The places in the list of unknowns of those of a row, by its sides.
-    pub fn listed(&self, row: usize) -> [Option<usize>; 2] {
+    pub(super) fn listed(&self, row: usize) -> [Option<usize>; 2] {
         [0, 1].map(|which| {
             let unknown = self.system.rows[row][which].unknown;
             unknown.and_then(|f| self.unknowns.iter().position(|&g| g == f))
@@ -62,7 +62,7 @@ impl Place<'_> {
     }
 
     /// (S13), and the degrees of a minor.
-    pub fn check(&self, minor: &Minor, bounds: &[usize]) -> Checked<Vec<usize>> {
+    pub(super) fn check(&self, minor: &Minor, bounds: &[usize]) -> Checked<Vec<usize>> {
         let system = self.system;
         for (name, list, limit) in [
             ("rows", &minor.rows, system.rows.len()),
@@ -124,7 +124,7 @@ impl Place<'_> {
 
     /// The coefficients of a minor, in the order of [`Exponents`] up to its degrees; up to a
     /// factor. Empty if all are zero because its constant rows are dependent.
-    pub fn coefficients(&self, minor: &Minor, degrees: &[usize]) -> Checked<Vec<u64>> {
+    pub(super) fn coefficients(&self, minor: &Minor, degrees: &[usize]) -> Checked<Vec<u64>> {
         let (system, field) = (self.system, &self.system.field);
         let within = |row: Sparse| -> Sparse {
             let entries = row.into_iter();

@@ -51,7 +51,7 @@ pub(super) struct Span<'t> {
 }
 
 impl<'t> Span<'t> {
-    pub fn new(system: &'t System, known: &Known, text: Text<'t>) -> Checked<Span<'t>> {
+    pub(super) fn new(system: &'t System, known: &Known, text: Text<'t>) -> Checked<Span<'t>> {
         check_unknowns(text.unknowns, known)?;
         ensure!(
             text.bounds.len() == text.unknowns.len(),
@@ -88,18 +88,18 @@ impl<'t> Span<'t> {
     }
 
     /// |A|.
-    pub fn present(&self) -> usize {
+    pub(super) fn present(&self) -> usize {
         self.is_present.iter().filter(|&&present| present).count()
     }
 
     /// Whether the sum of two exponents is in A.
-    pub fn has_sum(&self, a: &[usize], b: &[usize]) -> bool {
+    pub(super) fn has_sum(&self, a: &[usize], b: &[usize]) -> bool {
         let sum = sum(a, b);
         self.exponents.contain(&sum) && self.is_present[self.exponents.place(&sum)]
     }
 
     /// A.
-    pub fn all_present(&self) -> Vec<Vec<usize>> {
+    pub(super) fn all_present(&self) -> Vec<Vec<usize>> {
         let all = self.exponents.all().into_iter().zip(&self.is_present);
         all.filter_map(|(exponent, &present)| present.then_some(exponent))
             .collect()

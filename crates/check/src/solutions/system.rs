@@ -43,7 +43,7 @@ pub(super) struct System<'a> {
 }
 
 impl<'a> System<'a> {
-    pub fn new(chart: &'a Chart, text: &Centres, meter: &'a Meter) -> Checked<System<'a>> {
+    pub(super) fn new(chart: &'a Chart, text: &Centres, meter: &'a Meter) -> Checked<System<'a>> {
         let field = Field::new(text.prime.0)?;
         let centres = residues_of_centres(&field, chart, &text.values)?;
         let mut column = vec![Some(0); chart.nodes];
@@ -141,14 +141,18 @@ impl<'a> System<'a> {
     }
 
     /// The unknowns of a row that are not known.
-    pub fn open<'s>(&'s self, row: usize, known: &'s Known) -> impl Iterator<Item = usize> + 's {
+    pub(super) fn open<'s>(
+        &'s self,
+        row: usize,
+        known: &'s Known,
+    ) -> impl Iterator<Item = usize> + 's {
         let unknowns = self.rows[row].iter().filter_map(|side| side.unknown);
         unknowns.filter(|&f| known[f].is_none())
     }
 
     /// A side as a vector, with the value of its scale if that is known, and without scale
     /// otherwise.
-    pub fn side(&self, row: usize, which: usize, known: &Known) -> Sparse {
+    pub(super) fn side(&self, row: usize, which: usize, known: &Known) -> Sparse {
         let side = &self.rows[row][which];
         let scale = side.unknown.and_then(|f| known[f]);
         let entries = side.vector.iter().enumerate();
@@ -160,7 +164,7 @@ impl<'a> System<'a> {
     }
 
     /// A row whose unknowns are known. Its sides are at different nodes.
-    pub fn row(&self, row: usize, known: &Known) -> Sparse {
+    pub(super) fn row(&self, row: usize, known: &Known) -> Sparse {
         let [mut first, second] = [0, 1].map(|which| self.side(row, which, known));
         let negative = second.into_iter();
         first.extend(negative.map(|(column, entry)| (column, self.field.neg(entry))));
@@ -168,18 +172,18 @@ impl<'a> System<'a> {
     }
 
     /// The constant rows.
-    pub fn constant<'s>(&'s self, known: &'s Known) -> impl Iterator<Item = usize> + 's {
+    pub(super) fn constant<'s>(&'s self, known: &'s Known) -> impl Iterator<Item = usize> + 's {
         (0..self.rows.len()).filter(|&row| self.open(row, known).next().is_none())
     }
 
     /// The space of all rows, where all unknowns are known.
-    pub fn space(&self, known: &Known) -> Checked<Echelon<'_>> {
+    pub(super) fn space(&self, known: &Known) -> Checked<Echelon<'_>> {
         let rows = (0..self.rows.len()).map(|row| self.row(row, known));
         Echelon::of(&self.field, self.columns, self.meter, rows)
     }
 
     /// Residues, which are below the prime.
-    pub fn residues(&self, values: &[Big<u64>]) -> Checked<Vec<u64>> {
+    pub(super) fn residues(&self, values: &[Big<u64>]) -> Checked<Vec<u64>> {
         residues(&self.field, values)
     }
 }

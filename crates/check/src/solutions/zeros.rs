@@ -22,7 +22,7 @@ pub(super) struct Pattern {
 }
 
 impl Pattern {
-    pub fn new(minor: &Minor, place: &Place) -> Pattern {
+    pub(super) fn new(minor: &Minor, place: &Place) -> Pattern {
         let columns_of = |side: &Side| {
             let generic = (0..3).filter(|&k| side.is_generic[k]);
             let columns = generic.map(|k| side.column + k);
@@ -52,7 +52,7 @@ impl Pattern {
 
     /// Whether there is a choice of one entry in each row, in different columns, among those that
     /// terms with this exponent may have.
-    pub fn has_transversal(&self, exponent: &[usize]) -> bool {
+    pub(super) fn has_transversal(&self, exponent: &[usize]) -> bool {
         let rows = self
             .rows
             .iter()
@@ -63,7 +63,7 @@ impl Pattern {
 
     /// Whether there is one for some choice of a side of each row with a listed unknown, each unknown being
     /// that of as many as its exponent says.
-    pub fn has_choice(&self, exponent: &[usize], meter: &Meter) -> Checked<bool> {
+    pub(super) fn has_choice(&self, exponent: &[usize], meter: &Meter) -> Checked<bool> {
         let (open, rest): (Vec<_>, Vec<_>) = self
             .rows
             .iter()

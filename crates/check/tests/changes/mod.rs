@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use viewcert_check::{Failure, Graph, check};
 
-pub fn named(name: &str) -> Value {
+pub(crate) fn named(name: &str) -> Value {
     let path = format!("tests/certificates/{name}.json");
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
     serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
@@ -20,7 +20,7 @@ fn expand(pointer: &str) -> String {
     }
 }
 
-pub fn at<'v>(value: &'v mut Value, pointer: &str) -> &'v mut Value {
+pub(crate) fn at<'v>(value: &'v mut Value, pointer: &str) -> &'v mut Value {
     let pointer = expand(pointer);
     value
         .pointer_mut(&pointer)
@@ -28,7 +28,7 @@ pub fn at<'v>(value: &'v mut Value, pointer: &str) -> &'v mut Value {
 }
 
 /// Changes values; `remove` takes one out of its list, `repeat` adds it again.
-pub fn changed(name: &str, changes: &[(&str, Value)]) -> Value {
+pub(crate) fn changed(name: &str, changes: &[(&str, Value)]) -> Value {
     let mut value = named(name);
     for (pointer, new) in changes {
         if *new == json!("remove") {
@@ -49,14 +49,14 @@ pub fn changed(name: &str, changes: &[(&str, Value)]) -> Value {
     value
 }
 
-pub fn rejection(value: &Value, graph: Option<&Graph>) -> String {
+pub(crate) fn rejection(value: &Value, graph: Option<&Graph>) -> String {
     match check(value.to_string().as_bytes(), graph) {
         Err(Failure::Rejected(rejection)) => rejection.to_string(),
         other => panic!("not rejected: {other:?}"),
     }
 }
 
-pub fn refused(name: &str, changes: &[(&str, Value)], wanted: &str) {
+pub(crate) fn refused(name: &str, changes: &[(&str, Value)], wanted: &str) {
     let reason = rejection(&changed(name, changes), None);
     let wanted = wanted.replace("E/", "pieces[0].evidence");
     assert!(reason.starts_with(&wanted), "{name} {changes:?}: {reason}");

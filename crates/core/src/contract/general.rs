@@ -9,7 +9,7 @@ pub(super) struct General(pub Option<Arc<Placed>>);
 
 impl General {
     /// Whether three or four nodes are.
-    pub fn holds(&self, nodes: &[u32]) -> bool {
+    pub(super) fn holds(&self, nodes: &[u32]) -> bool {
         let placed = self.0.as_ref();
         placed.is_none_or(|placed| placed.are_independent(nodes))
     }

@@ -94,7 +94,7 @@ impl Members {
 
 /// A contracted graph: which member contains which of the nodes that members share.
 #[derive(Clone, Debug)]
-pub struct Assembly {
+pub(crate) struct Assembly {
     all: Members,
     /// For every body of the contraction those of its nodes, increasing, that lie in
     /// a second member; empty for consumed bodies.
@@ -117,7 +117,7 @@ struct GivenVectors {
 
 /// Some members, cut at their articulation nodes.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Split {
+pub(crate) struct Split {
     /// The members that are pieces by themselves.
     pub rigid: Members,
     /// The other pieces, each of two members or more, in a fixed order.
@@ -126,14 +126,14 @@ pub struct Split {
 
 impl Core {
     /// The rank of the core of a finite solvable piece.
-    pub fn required(&self, model: Model) -> usize {
+    pub(crate) fn required(&self, model: Model) -> usize {
         model.required(self.graph.nodes()) + usize::from(!self.scales.is_empty())
     }
 }
 
 impl Assembly {
     /// The structure of a contracted graph. O(n + loose edges).
-    pub fn new(graph: &Graph, contraction: &Contraction) -> Self {
+    pub(crate) fn new(graph: &Graph, contraction: &Contraction) -> Self {
         let mut count = vec![0u8; graph.nodes()];
         let mut see = |v: u32| count[v as usize] = count[v as usize].saturating_add(1);
         for &body in &contraction.finals {
@@ -185,13 +185,13 @@ impl Assembly {
     }
 
     /// All members.
-    pub fn all(&self) -> Members {
+    pub(crate) fn all(&self) -> Members {
         self.all.clone()
     }
 
     /// Cuts some members at the nodes that are articulations of their structure. Linear
     /// time, up to sorting.
-    pub fn split(&self, part: &Members) -> Split {
+    pub(crate) fn split(&self, part: &Members) -> Split {
         let piece_of = piece_of_members(part, &self.shared);
         let mut split = Split {
             rigid: Members::default(),
@@ -212,7 +212,7 @@ impl Assembly {
 
     /// Some members as one piece, whatever their articulations (a single member is rigid
     /// all the same, and none are no piece).
-    pub fn whole(&self, part: &Members) -> Split {
+    pub(crate) fn whole(&self, part: &Members) -> Split {
         let (rigid, pieces) = if part.len() < 2 {
             (part.clone(), Vec::new())
         } else {
@@ -225,7 +225,7 @@ impl Assembly {
     ///
     /// # Panics
     /// If two members share two nodes, which a contraction excludes.
-    pub fn core(&self, part: &Members) -> Core {
+    pub(crate) fn core(&self, part: &Members) -> Core {
         let mut nodes: Vec<u32> = part.edges.iter().flat_map(|&(i, j)| [i, j]).collect();
         let mut of_bodies: Vec<u32> = part
             .bodies
@@ -295,19 +295,19 @@ impl Assembly {
     }
 
     /// Whether a part holds a known displacement.
-    pub fn is_scaled(&self, part: &Members) -> bool {
+    pub(crate) fn is_scaled(&self, part: &Members) -> bool {
         part.bodies.iter().any(|&body| self.scaled[body as usize])
     }
 
     /// The rank of a finite solvable part, or of a body, with the nodes of this part: that of the
     /// model, and one more if the scale is known (Theorem 13.16).
-    pub fn required(&self, model: Model, part: &Members) -> usize {
+    pub(crate) fn required(&self, model: Model, part: &Members) -> usize {
         model.required(self.count_nodes(part)) + usize::from(self.is_scaled(part))
     }
 
     /// Parts with those that are scaled and share a node united, in the order of their first ones
     /// (Theorem 13.17).
-    pub fn joined(&self, parts: Vec<Members>) -> Vec<Members> {
+    pub(crate) fn joined(&self, parts: Vec<Members>) -> Vec<Members> {
         let mut sets = UnionFind::new(parts.len());
         let mut at: BTreeMap<u32, usize> = BTreeMap::new();
         for (k, part) in parts.iter().enumerate().filter(|(_, p)| self.is_scaled(p)) {
@@ -333,7 +333,7 @@ impl Assembly {
     }
 
     /// Number of nodes of all members of a part together.
-    pub fn count_nodes(&self, part: &Members) -> usize {
+    pub(crate) fn count_nodes(&self, part: &Members) -> usize {
         let mut nodes: Vec<u32> = part.edges.iter().flat_map(|&(i, j)| [i, j]).collect();
         let mut inner = 0;
         for &body in &part.bodies {
@@ -347,7 +347,7 @@ impl Assembly {
     }
 
     /// Whether a part contains a node that lies in two members or more.
-    pub fn contains_node(&self, part: &Members, node: u32) -> bool {
+    pub(crate) fn contains_node(&self, part: &Members, node: u32) -> bool {
         let in_body = |&b: &u32| self.shared[b as usize].binary_search(&node).is_ok();
         part.edges.iter().any(|&(i, j)| i == node || j == node) || part.bodies.iter().any(in_body)
     }
@@ -356,7 +356,7 @@ impl Assembly {
 /// The core of a piece: its shared nodes, with a chain of triangles in the place of
 /// every body.
 #[derive(Clone, Debug)]
-pub struct Core {
+pub(crate) struct Core {
     /// The core's nodes as nodes of the whole graph, increasing.
     pub nodes: Vec<u32>,
     /// The core on the nodes `0 .. nodes.len()`.

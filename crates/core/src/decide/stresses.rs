@@ -25,7 +25,7 @@ pub(crate) struct Stresses<'a> {
 
 impl<'a> Stresses<'a> {
     /// The stresses at random centres, with the members that own the edges.
-    pub fn new(
+    pub(super) fn new(
         field: &'a PrimeField,
         core: &Core,
         members: usize,
@@ -71,7 +71,7 @@ impl<'a> Stresses<'a> {
     }
 
     /// How many there are: 7 m - rank J_P.
-    pub fn dimension(&self) -> usize {
+    pub(super) fn dimension(&self) -> usize {
         self.dimension
     }
 
@@ -79,7 +79,7 @@ impl<'a> Stresses<'a> {
     /// parts, as the number of each member's part: then the rank is the sum of the parts' ranks
     /// (Lemma 5.12), so a bound that meets it is a sum of bounds that do. A member that sees no
     /// stress, whose rows are independent of all others, is a part by itself.
-    pub fn parts(&self) -> Vec<usize> {
+    pub(super) fn parts(&self) -> Vec<usize> {
         let members = self.of_member.len();
         let owners = (0..members).flat_map(|k| self.of_member[k].iter().map(move |_| k));
         let owners: Vec<usize> = owners.collect();

@@ -7,7 +7,7 @@ use std::fmt;
 use std::str::FromStr;
 
 /// Numerators and denominators have at most so many digits.
-pub const MAX_DIGITS: u32 = 30;
+pub(super) const MAX_DIGITS: u32 = 30;
 
 /// A vector in some unit.
 pub(super) type Vector = [i128; 3];

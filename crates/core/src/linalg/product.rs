@@ -30,7 +30,7 @@ impl Product<'_> {
     ///
     /// About so many units of the work are done. If it is stopped the target is left half done, and
     /// the next call of [`Work::done`] says so.
-    pub fn add_to(
+    pub(super) fn add_to(
         &self,
         field: &PrimeField,
         target: &mut [u64],

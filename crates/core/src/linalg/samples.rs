@@ -12,7 +12,7 @@ use rand_chacha::ChaCha8Rng;
 ///
 /// # Panics
 /// If the rank is larger than the number of rows or columns.
-pub fn known_rank<R: Ring>(
+pub(super) fn known_rank<R: Ring>(
     ring: &R,
     rows: usize,
     cols: usize,
@@ -62,7 +62,11 @@ pub fn known_rank<R: Ring>(
 }
 
 /// `matrix * vector`
-pub fn multiply<R: Ring>(ring: &R, matrix: &Matrix<R::Elem>, vector: &[R::Elem]) -> Vec<R::Elem> {
+pub(super) fn multiply<R: Ring>(
+    ring: &R,
+    matrix: &Matrix<R::Elem>,
+    vector: &[R::Elem],
+) -> Vec<R::Elem> {
     let dot = |row: &[R::Elem]| {
         let terms = row.iter().zip(vector).map(|(a, x)| ring.mul(a, x));
         terms.fold(ring.zero(), |sum, term| ring.add(&sum, &term))

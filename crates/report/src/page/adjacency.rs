@@ -12,7 +12,7 @@ const MOST_PIXELS: usize = 640;
 
 /// The picture: which edges fall into which pixel.
 #[derive(Serialize)]
-pub struct Adjacency {
+pub(super) struct Adjacency {
     /// Width and height in pixels.
     size: [usize; 2],
     /// How many columns, and how many rows, of the matrix a pixel stands for.
@@ -47,7 +47,7 @@ impl Pixel {
 
 impl Adjacency {
     /// Sorts every edge into its pixel. O(n log n + m).
-    pub fn new(picture: &Picture) -> Self {
+    pub(super) fn new(picture: &Picture) -> Self {
         let graph = &picture.input.graph;
         let (nodes, cameras) = (graph.nodes() as u32, picture.cameras() as u32);
         let bipartite = cameras < nodes;
@@ -90,7 +90,7 @@ impl Adjacency {
     ///
     /// # Errors
     /// Those of the encoder.
-    pub fn png(&self, picture: &Picture) -> io::Result<Vec<u8>> {
+    pub(super) fn png(&self, picture: &Picture) -> io::Result<Vec<u8>> {
         let capacity = (self.cell[0] * self.cell[1]) as f64;
         let colours = self.pixels.iter().flat_map(|pixel| {
             let [_, r, g, b] = rgb(picture.mark(pixel.component as usize)).to_be_bytes();

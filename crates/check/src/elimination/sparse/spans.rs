@@ -8,7 +8,7 @@ use crate::rejection::Checked;
 
 impl<'f> Echelon<'f> {
     /// The rows of a matrix, eliminated in their order.
-    pub fn of<R: IntoIterator<Item = (usize, u64)>>(
+    pub(crate) fn of<R: IntoIterator<Item = (usize, u64)>>(
         field: &'f Field,
         width: usize,
         meter: &'f Meter,
@@ -22,19 +22,19 @@ impl<'f> Echelon<'f> {
     }
 
     /// How many rows are independent.
-    pub fn rank(&self) -> usize {
+    pub(crate) fn rank(&self) -> usize {
         self.rows.len()
     }
 
     /// The columns without pivot, in increasing order.
-    pub fn free(&self) -> Vec<usize> {
+    pub(crate) fn free(&self) -> Vec<usize> {
         let columns = 0..self.width();
         columns.filter(|&at| self.place[at] == NONE).collect()
     }
 
     /// The vector that is orthogonal to all rows, one at a column without pivot and zero at the
     /// others of them. All of these are a basis.
-    pub fn orthogonal(&self, free: usize) -> Checked<Vec<u64>> {
+    pub(crate) fn orthogonal(&self, free: usize) -> Checked<Vec<u64>> {
         let entries: usize = self.rows.iter().map(|row| row.reduced.len()).sum();
         self.meter
             .charge(SPARSE * entries as u64 + self.width() as u64)?;
@@ -48,7 +48,7 @@ impl<'f> Echelon<'f> {
     }
 
     /// Whether a vector is orthogonal to all rows.
-    pub fn annihilates(&self, vector: &[u64]) -> Checked<bool> {
+    pub(crate) fn annihilates(&self, vector: &[u64]) -> Checked<bool> {
         let entries: usize = self.rows.iter().map(|row| row.reduced.len()).sum();
         self.meter.charge(SPARSE * entries as u64)?;
         let mut rows = self.rows.iter();
@@ -64,7 +64,10 @@ impl<'f> Echelon<'f> {
 
     /// What is left of a row once multiples of the rows of U are subtracted, so that it vanishes at
     /// their pivots: its entries by columns, increasing.
-    pub fn residue(&mut self, entries: impl IntoIterator<Item = (usize, u64)>) -> Checked<Entries> {
+    pub(crate) fn residue(
+        &mut self,
+        entries: impl IntoIterator<Item = (usize, u64)>,
+    ) -> Checked<Entries> {
         Ok(self.reduced(entries)?.0)
     }
 }

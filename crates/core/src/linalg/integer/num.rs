@@ -5,9 +5,9 @@ use num_integer::Integer;
 use num_traits::{Euclid, ToPrimitive};
 use std::cmp::Ordering;
 
-pub type Inner = BigInt;
+pub(super) type Inner = BigInt;
 
-pub fn sign(a: &Inner) -> Ordering {
+pub(super) fn sign(a: &Inner) -> Ordering {
     match a.sign() {
         Sign::Minus => Ordering::Less,
         Sign::NoSign => Ordering::Equal,
@@ -15,55 +15,55 @@ pub fn sign(a: &Inner) -> Ordering {
     }
 }
 
-pub fn cmp_abs(a: &Inner, b: &Inner) -> Ordering {
+pub(super) fn cmp_abs(a: &Inner, b: &Inner) -> Ordering {
     a.magnitude().cmp(b.magnitude())
 }
 
-pub fn add(a: &Inner, b: &Inner) -> Inner {
+pub(super) fn add(a: &Inner, b: &Inner) -> Inner {
     a + b
 }
 
-pub fn sub(a: &Inner, b: &Inner) -> Inner {
+pub(super) fn sub(a: &Inner, b: &Inner) -> Inner {
     a - b
 }
 
-pub fn mul(a: &Inner, b: &Inner) -> Inner {
+pub(super) fn mul(a: &Inner, b: &Inner) -> Inner {
     a * b
 }
 
-pub fn neg(a: &Inner) -> Inner {
+pub(super) fn neg(a: &Inner) -> Inner {
     -a
 }
 
-pub fn mul_assign(a: &mut Inner, b: &Inner) {
+pub(super) fn mul_assign(a: &mut Inner, b: &Inner) {
     *a *= b;
 }
 
-pub fn add_assign(a: &mut Inner, b: &Inner) {
+pub(super) fn add_assign(a: &mut Inner, b: &Inner) {
     *a += b;
 }
 
-pub fn sub_assign(a: &mut Inner, b: &Inner) {
+pub(super) fn sub_assign(a: &mut Inner, b: &Inner) {
     *a -= b;
 }
 
-pub fn div_exact(a: &Inner, b: &Inner) -> Inner {
+pub(super) fn div_exact(a: &Inner, b: &Inner) -> Inner {
     a / b
 }
 
-pub fn div_rem_euclid(a: &Inner, b: &Inner) -> (Inner, Inner) {
+pub(super) fn div_rem_euclid(a: &Inner, b: &Inner) -> (Inner, Inner) {
     a.div_rem_euclid(b)
 }
 
-pub fn gcd(a: &Inner, b: &Inner) -> Inner {
+pub(super) fn gcd(a: &Inner, b: &Inner) -> Inner {
     a.gcd(b)
 }
 
-pub fn bits(a: &Inner) -> u64 {
+pub(super) fn bits(a: &Inner) -> u64 {
     a.bits()
 }
 
-pub fn rem_u64(a: &Inner, modulus: u64) -> u64 {
+pub(super) fn rem_u64(a: &Inner, modulus: u64) -> u64 {
     let rest = a.magnitude() % modulus;
     let rest = rest
         .to_u64()
