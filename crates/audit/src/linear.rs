@@ -58,7 +58,7 @@ impl Ring for Doubles {
 }
 
 /// The scalar product of two vectors, in eight sums side by side.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     let (a, b) = (a.chunks_exact(8), b.chunks_exact(8));
     let rest = a.remainder().iter().zip(b.remainder());
     let rest: f64 = rest.map(|(x, y)| x * y).sum();
@@ -72,7 +72,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// Adds a multiple of `b` to `a`.
-fn add(a: &mut [f64], factor: f64, b: &[f64]) {
+pub fn add(a: &mut [f64], factor: f64, b: &[f64]) {
     for (x, y) in a.iter_mut().zip(b) {
         *x += factor * y;
     }

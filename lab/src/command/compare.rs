@@ -86,14 +86,13 @@ pub fn run(session: &Session, arguments: &CompareArguments) -> Result<u8> {
             Outcome::Disagree => NOT,
         })
     };
-    let code = arguments.input.for_each(
+    arguments.input.for_each(
         session,
         (&arguments.graphs, arguments.json),
         &|_| None,
         &mut out,
         each,
-    )?;
-    Ok(code)
+    )
 }
 
 /// Largest matrix whose elimination is not announced: a few seconds, modulo a prime and over Q.

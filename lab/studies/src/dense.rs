@@ -5,33 +5,11 @@
 
 use rayon::prelude::*;
 use viewcert_audit::AuditError;
-
-/// A matrix by its columns.
-pub type Columns = Vec<Vec<f64>>;
+pub use viewcert_audit::linear::Columns;
+use viewcert_audit::linear::{add, dot};
 
 /// Sweeps over all pairs of columns, at most: ten are many.
 const SWEEPS: usize = 60;
-
-/// The scalar product of two vectors, in eight sums side by side.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let (a, b) = (a.chunks_exact(8), b.chunks_exact(8));
-    let rest = a.remainder().iter().zip(b.remainder());
-    let rest: f64 = rest.map(|(x, y)| x * y).sum();
-    let mut sums = [0.0; 8];
-    for (a, b) in a.zip(b) {
-        for k in 0..8 {
-            sums[k] += a[k] * b[k];
-        }
-    }
-    sums.iter().sum::<f64>() + rest
-}
-
-/// Adds a multiple of `b` to `a`.
-fn add(a: &mut [f64], factor: f64, b: &[f64]) {
-    for (x, y) in a.iter_mut().zip(b) {
-        *x += factor * y;
-    }
-}
 
 fn norm(a: &[f64]) -> f64 {
     dot(a, a).sqrt()

@@ -1,6 +1,7 @@
 use proptest::prelude::*;
 
 use super::*;
+use crate::quaternion::rotation;
 
 /// The graph of a full matrix, column by column.
 fn read(size: u32, entry: impl Fn(u32, u32) -> f64) -> Result<Parsed, Problem> {
@@ -50,29 +51,6 @@ fn product(a: Block, b: Block) -> Block {
 /// `[t]_x`, so that its product with t is zero.
 fn cross([x, y, z]: [f64; 3]) -> Block {
     [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]]
-}
-
-/// The rotation of a quaternion.
-fn rotation(quaternion: [f64; 4]) -> Block {
-    let norm: f64 = quaternion.iter().map(|q| q * q).sum::<f64>().sqrt();
-    let [w, x, y, z] = quaternion.map(|q| q / norm);
-    [
-        [
-            1.0 - 2.0 * (y * y + z * z),
-            2.0 * (x * y - w * z),
-            2.0 * (x * z + w * y),
-        ],
-        [
-            2.0 * (x * y + w * z),
-            1.0 - 2.0 * (x * x + z * z),
-            2.0 * (y * z - w * x),
-        ],
-        [
-            2.0 * (x * z - w * y),
-            2.0 * (y * z + w * x),
-            1.0 - 2.0 * (x * x + y * y),
-        ],
-    ]
 }
 
 /// Five cameras, six pairs: what the matrices of the same pairs are read as.
