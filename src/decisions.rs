@@ -180,38 +180,33 @@ impl Work<'_> {
     ) -> Result<bool> {
         let (session, plan) = (self.session, self.plan);
         let name = || input.name.clone();
-        let scope = Scope::new(input, verdict, plan.asked, &session.shown_watch());
-        session.hide();
+        let scope = session.watched(|watch| Scope::new(input, verdict, plan.asked, watch));
         let mut scope = scope.with_context(name)?;
-        let mut certified = None;
-        if let Besides::Sensors(sensors) = besides {
-            let certify = self.target.is_some();
-            let watch = session.shown_watch();
-            let found = intrinsics::decide(input, verdict, sensors, (plan.seed, certify), &watch);
-            session.hide();
-            let (metric, evidence) = found.with_context(name)?;
-            let mut line = IntrinsicsLine::new(input, sensors, &metric, plan.list_components);
-            if let Some(most) = plan.priors {
-                let (graph, seed) = (&input.graph, plan.seed);
-                let priors = Priors::new(graph, verdict, sensors, &metric, seed, &watch);
-                session.hide();
-                let priors = &priors.with_context(name)?;
-                let most = most as usize;
-                line = line.with_priors(PriorsLine::new(input, sensors, &metric, priors, most));
+        let (mut here, mut certified) = (None, None);
+        match besides {
+            Besides::Nothing => {}
+            Besides::Cameras(centres) => {
+                let decided = session.watched(|watch| here::decide(input, centres, watch))?;
+                here = Some((decided, centres));
             }
-            scope = scope.with_intrinsics(line);
-            certified = evidence;
+            Besides::Sensors(sensors) => {
+                let certify = (plan.seed, self.target.is_some());
+                let decide =
+                    |watch: &Watch| intrinsics::decide(input, verdict, sensors, certify, watch);
+                let (metric, evidence) = session.watched(decide).with_context(name)?;
+                let mut line = IntrinsicsLine::new(input, sensors, &metric, plan.list_components);
+                if let Some(most) = plan.priors {
+                    let (graph, seed) = (&input.graph, plan.seed);
+                    let find =
+                        |watch: &Watch| Priors::new(graph, verdict, sensors, &metric, seed, watch);
+                    let priors = &session.watched(find).with_context(name)?;
+                    let most = most as usize;
+                    line = line.with_priors(PriorsLine::new(input, sensors, &metric, priors, most));
+                }
+                scope = scope.with_intrinsics(line);
+                certified = evidence;
+            }
         }
-        let centres = match besides {
-            Besides::Cameras(centres) => Some(centres),
-            _ => None,
-        };
-        let here = centres.map(|centres| {
-            let decided = here::decide(input, centres, &session.shown_watch());
-            session.hide();
-            Ok::<_, anyhow::Error>((decided?, centres))
-        });
-        let here = here.transpose()?;
         let own = match (&here, &certified) {
             (Some((here, centres)), _) => Some(OwnCertificate::Here(here, centres)),
             (_, Some(certified)) => Some(OwnCertificate::Intrinsics(certified)),
@@ -219,8 +214,7 @@ impl Work<'_> {
         };
         let time = start.elapsed();
         let written = self.write((input, time), verdict, &scope, own)?;
-        let advice = self.advise(input, verdict);
-        session.hide();
+        let advice = session.watched(|_| self.advise(input, verdict));
         let advice = advice.with_context(name)?;
         let is_drawn = plan.products.page.is_some() || plan.products.picture.is_some();
         let motions = match &here {

@@ -24,9 +24,7 @@ pub(super) fn decide(input: &NamedGraph, centres: &Centres, watch: &Watch) -> Re
 /// # Errors
 /// If the work is stopped.
 pub(super) fn motions(here: &Here, centres: &Centres, session: &Session) -> Result<Vec<Motion>> {
-    let found = here.basis_of_motions(centres, &session.shown_watch());
-    session.hide();
-    let found = found?;
+    let found = session.watched(|watch| here.basis_of_motions(centres, watch))?;
     if found.is_none() && !here.is_determined() {
         let why = match here.model {
             Model::Affine => "affine cameras have their centres at infinity",

@@ -96,8 +96,8 @@ pub(super) fn of_database(
         Ok(found) => found.sensors,
         Err(error) => return Ok(Err(error.problem.to_string())),
     };
-    let (seed, watch) = (Options::default().seed, session.shown_watch());
-    let metric = Metric::with_sensors(&input.graph, verdict, &found, seed, &watch);
-    session.hide();
+    let seed = Options::default().seed;
+    let metric =
+        session.watched(|watch| Metric::with_sensors(&input.graph, verdict, &found, seed, watch));
     Ok(Ok(IntrinsicsLine::new(input, &found, &metric?, false)))
 }

@@ -51,8 +51,8 @@ pub(super) fn run(session: &Session, arguments: &ModelsArguments) -> Result<u8> 
             };
             let question = draft.question().context(given::OPTION)?;
             let options = Options::default().question(question).seed(arguments.seed);
-            let verdict = decide(&input.graph, &options.watch(session.shown_watch()));
-            session.hide();
+            let verdict =
+                session.watched(|watch| decide(&input.graph, &options.watch(watch.clone())));
             verdict.with_context(|| format!("{}, {model} model", input.name))
         };
         let verdicts = report::ORDER.into_iter().map(decided);

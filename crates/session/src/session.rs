@@ -149,6 +149,13 @@ impl Session {
         }
     }
 
+    /// Does a work under its watch: the bar shows how far it is, and is off the terminal when it ends.
+    pub fn watched<T>(&self, work: impl FnOnce(&Watch) -> T) -> T {
+        let done = work(&self.shown_watch());
+        self.hide();
+        done
+    }
+
     /// Notes what the program is doing, for the message if it is stopped there.
     pub fn doing(&self, what: String) {
         *unpoisoned(&self.0.doing) = what;
