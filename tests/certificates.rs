@@ -52,7 +52,7 @@ fn samples() -> Vec<(&'static str, String, Vec<&'static str>)> {
         ("calibrated", cycle(5), vec!["--model", "calibrated"]),
         ("small prime", cycle(4), vec!["--prime=101"]),
         (
-            "pinching",
+            "rigid in the plane",
             "0 3\n0 4\n0 5\n1 3\n1 4\n1 5\n2 3\n2 4\n2 5\n".into(),
             vec!["--model", "affine"],
         ),
@@ -116,7 +116,6 @@ fn every_kind_of_evidence_is_written_and_verified() {
         "kernel",
         "linear",
         "minor",
-        "pinching",
         "plane-flow",
         "plane-minor",
         "support",

@@ -537,7 +537,7 @@ def change_pivots(document, rng):
 
 
 def change_kind(document, rng):
-    kinds = (*LOWER, "pinching", "counting", "overlap", "draws", "classes", "kernel", "hub")
+    kinds = (*LOWER, "counting", "overlap", "draws", "classes", "kernel", "hub")
     rng.choice(evidence_of(document, kinds))["kind"] = rng.choice(kinds)
 
 

@@ -4,7 +4,7 @@ from cores import Core, Members
 from draws import DRAW, FLOW, Stream, draw_centres, integer_cameras, refuse_void
 from elimination import Elimination, find_pivots, modulus_above, primitive
 from matrices import bearing_rows, flow_of, jacobian_rows, lambda_rows_of, plane_rows, trivial_motions
-from notation import a_big, a_list, a_pair, an_int, distinct, is_prime, members, need
+from notation import a_big, a_list, an_int, distinct, is_prime, members, need
 
 
 class LowerBounds(Members):
@@ -129,35 +129,11 @@ class LowerBounds(Members):
         Elimination([matrix[row] for row in rows], cols, p, where)
         return 4 * len(rows)
 
-    def check_pinching(self, value, core, where):
-        """Section 7, pinching: a set of edges that is (2,3)-sparse after each step."""
-        need(self.model == "affine", f"{where}: affine model only")
-        _, start, steps, rank = members(value, "kind start steps rank", where)
-        start = a_pair(start, f"{where}: start")
-        self.indices(list(start), core.n, f"{where}: start")
-        there, edges = set(start), {start}
-        for k, step in enumerate(a_list(steps, f"{where}: steps")):
-            at = f"{where}: step {k}"
-            need(1 <= len(a_list(step, at)) <= 4, f"{at} has not one to four nodes")
-            z, *ends = self.indices(step, core.n, at)
-            need(z not in there, f"{at}: node {z} is there already")
-            need(all(end in there for end in ends), f"{at}: a node to be joined is not there")
-            if len(ends) == 3:
-                pinched = (min(ends[:2]), max(ends[:2]))
-                need(pinched in edges, f"{at}: the edge {pinched} to be deleted is not there")
-                edges.remove(pinched)
-            there.add(z)
-            edges.update((min(z, end), max(z, end)) for end in ends)
-        found = len(edges & set(core.edges))
-        need(an_int(rank, f"{where}: rank") == found, f"{where}: {found} core edges are there at the end, not {rank}")
-        return 4 * found
-
     LOWER = {
         "minor": check_minor,
         "integer-minor": check_integer_minor,
         "plane-flow": check_plane_flow,
         "plane-minor": check_plane_minor,
-        "pinching": check_pinching,
     }
 
     def lower_bounds(self, core, evidence, where):

@@ -198,7 +198,6 @@ pub(crate) enum Evidence {
     Minor(Minor),
     IntegerMinor(IntegerMinor),
     PlaneFlow(PlaneFlow),
-    Pinching(Pinching),
     PlaneMinor(Minor),
     Counting(Counting),
     Draws(Draws),
@@ -242,13 +241,6 @@ pub(crate) struct PlaneFlow {
 }
 
 #[derive(Debug)]
-pub(crate) struct Pinching {
-    pub start: Pair,
-    pub steps: Vec<Vec<usize>>,
-    pub rank: i64,
-}
-
-#[derive(Debug)]
 pub(crate) struct Counting {
     pub blocks: Vec<Block>,
     pub bound: i64,
@@ -280,7 +272,6 @@ impl Evidence {
             Evidence::Minor(_) => "minor",
             Evidence::IntegerMinor(_) => "integer-minor",
             Evidence::PlaneFlow(_) => "plane-flow",
-            Evidence::Pinching(_) => "pinching",
             Evidence::PlaneMinor(_) => "plane-minor",
             Evidence::Counting(_) => "counting",
             Evidence::Draws(_) => "draws",
@@ -297,7 +288,7 @@ any_members! {
         kernel: Vec<Vec<Big<String>>>,
         flows: usize, lambda_rows: Vec<usize>, lambda_cols: Vec<usize>,
         blocks: Vec<Block>, bound: i64, count: u64, rank: i64, classes: Vec<Class>,
-        vector: Vec<Big<u64>>, start: Pair, steps: Vec<Vec<usize>>,
+        vector: Vec<Big<u64>>,
     }
 }
 
@@ -315,11 +306,6 @@ impl AnyMembers {
             "minor" => Evidence::Minor(self.minor()?),
             "integer-minor" => Evidence::IntegerMinor(self.integer_minor()?),
             "plane-flow" => Evidence::PlaneFlow(self.plane_flow()?),
-            "pinching" => Evidence::Pinching(Pinching {
-                start: own!(self, start),
-                steps: own!(self, steps),
-                rank: own!(self, rank),
-            }),
             "plane-minor" => Evidence::PlaneMinor(self.minor()?),
             "counting" => Evidence::Counting(Counting {
                 blocks: own!(self, blocks),

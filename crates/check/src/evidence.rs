@@ -162,7 +162,6 @@ impl Shown {
             Evidence::Minor(_)
             | Evidence::IntegerMinor(_)
             | Evidence::PlaneFlow(_)
-            | Evidence::Pinching(_)
             | Evidence::PlaneMinor(_) => {
                 self.bounds.push(check_lower(one, structure.setting, core)?);
             }

@@ -20,7 +20,7 @@
 //! | pieces: a partition, no cycle | 6 | 4.3, 4.7, 4.10, 13.10, 13.17 | `division` |
 //! | cores are formed | 6 | 4.4, 4.11, 13.11, 13.18 | `structure` |
 //! | lower bounds: pivots | 7 | 1.4, 3.3, 8.1 | `lower`, `plane_flow`, `integer_minor` |
-//! | the same in the plane | 7 | 13.5, 13.12 | `pinching`, `plane_minor` |
+//! | the same in the plane | 7 | 13.12 | `plane_minor` |
 //! | upper bounds: blocks and hubs | 7 | 5.1, 5.2, 5.5, 13.22 | `counting` |
 //! | error bounds: draws nobody chooses | 9 | 7.2, 7.4 | `draws` |
 //! | classes, rigid or split again | 7 | 6.3, 6.5 | `evidence` |
@@ -62,7 +62,6 @@ mod limits;
 mod lower;
 mod matrices;
 mod parts;
-mod pinching;
 mod pivots;
 mod plane_flow;
 mod plane_minor;

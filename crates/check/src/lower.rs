@@ -8,7 +8,6 @@ use crate::document::{Evidence, Minor, Model};
 use crate::elimination::{Echelon, Factors};
 use crate::integer_minor::check_integer_minor;
 use crate::matrices::jacobian;
-use crate::pinching::check_pinching;
 use crate::pivots::Pivots;
 use crate::plane_flow::check_plane_flow;
 use crate::plane_minor::check_plane_minor;
@@ -24,7 +23,6 @@ pub(crate) fn check_lower(evidence: &Evidence, setting: &Setting, core: &Core) -
         Evidence::Minor(minor) => check_minor(minor, setting, core)?,
         Evidence::IntegerMinor(minor) => check_integer_minor(minor, setting, core)?,
         Evidence::PlaneFlow(flow) => check_plane_flow(flow, setting, core)?,
-        Evidence::Pinching(pinching) => check_pinching(pinching, setting, core)?,
         Evidence::PlaneMinor(minor) => check_plane_minor(minor, setting, core)?,
         _ => return Err(Failure::rejected("not a lower bound")),
     };
@@ -59,7 +57,7 @@ fn check_model(evidence: &Evidence, model: Model) -> Checked<()> {
     let fits = match evidence {
         Evidence::Minor(_) | Evidence::IntegerMinor(_) => model == Model::Projective,
         Evidence::PlaneFlow(_) => model != Model::Affine,
-        Evidence::Pinching(_) | Evidence::PlaneMinor(_) => model == Model::Affine,
+        Evidence::PlaneMinor(_) => model == Model::Affine,
         _ => true,
     };
     ensure!(fits, "not evidence in the {model} model");

@@ -74,88 +74,7 @@ fn section_5_bodies() {
 }
 
 #[test]
-fn section_7_pinching() {
-    let step = "E/[0] (pinching)";
-    let start = "`start` is not two nodes of the core in increasing order";
-    for wrong in [[1, 0], [1, 1], [0, 6]] {
-        let changes = [("E/0/start", json!(wrong))];
-        refused("affine-bipartite", &changes, &format!("{step}: {start}"));
-    }
-    // As written: 3 and 4 are joined to 0 and 1, 2 to 3 and 4, and 5 to 2 and the ends of 0-1.
-    for (pointer, wrong, reason) in [
-        ("0", json!([]), "no node is added"),
-        (
-            "3",
-            json!([5, 0, 1, 2, 3]),
-            "a node is joined to three others at most, not to 4",
-        ),
-        ("0", json!([6, 0, 1]), "6 is not a node of the core"),
-        ("0", json!([1, 0]), "node 1 is there already"),
-        ("1", json!([3, 0, 1]), "node 3 is there already"),
-        ("0", json!([3, 0, 3]), "node 3 is not there yet"),
-        ("0", json!([3, 0, 4]), "node 4 is not there yet"),
-        ("0", json!([3, 0, 9]), "node 9 is not there yet"),
-        ("0", json!([3, 0, 0]), "node 0 is named twice"),
-        ("3", json!([5, 0, 1, 0]), "node 0 is named twice"),
-        ("3", json!([5, 0, 2, 1]), "there is no edge between 0 and 2"),
-        ("3", json!([5, 3, 4, 1]), "there is no edge between 3 and 4"),
-    ] {
-        let pointer_of_step = format!("E/0/steps/{pointer}");
-        let wanted = format!("{step}.steps[{pointer}]: {reason}");
-        refused("affine-bipartite", &[(&pointer_of_step, wrong)], &wanted);
-    }
-    for rank in [8, 10] {
-        let wanted = format!("{step}: 9 edges of the core are there at the end, not {rank}");
-        refused("affine-bipartite", &[("E/0/rank", json!(rank))], &wanted);
-    }
-    // An edge is pinched once.
-    let twice = json!([[2, 0, 1], [3, 0, 1, 2], [4, 0, 1, 2]]);
-    refused(
-        "affine-bipartite",
-        &[("E/0/steps", twice)],
-        &format!("{step}.steps[2]: there is no edge between 0 and 1"),
-    );
-    // The edge 0-1 is not one of the core, and stays if nothing pinches it.
-    refused(
-        "affine-bipartite",
-        &[("E/0/steps/3", json!([5, 0, 1]))],
-        &format!("{step}: 8 edges of the core are there at the end, not 9"),
-    );
-    refused(
-        "affine-bipartite",
-        &[("E/0/steps/3", json!([5, 0, 1])), ("E/0/rank", json!(8))],
-        "pieces[0]: rank 32 is proved, but one component needs 36",
-    );
-    refused(
-        "affine-bipartite",
-        &[("E/0/steps", json!([])), ("E/0/rank", json!(0))],
-        "pieces[0]: rank 0 is proved, but one component needs 36",
-    );
-}
-
-/// Another order, and nodes that are joined later, are as good.
-#[test]
-fn section_7_pinching_otherwise() {
-    let steps = json!([[4, 1], [0, 3, 4], [2, 3, 4], [5, 0, 1, 2]]);
-    let wrong = changed("affine-bipartite", &[("E/0/steps", steps.clone())]);
-    let reason = rejection(&wrong, None);
-    let wanted = "pieces[0].evidence[0] (pinching).steps[1]: node 0 is there already";
-    assert_eq!(reason, wanted);
-    let start = ("E/0/start", json!([1, 3]));
-    let changes = [("E/0/steps", steps), start, ("E/0/rank", json!(7))];
-    let reason = rejection(&changed("affine-bipartite", &changes), None);
-    let wanted = "pieces[0].evidence[0] (pinching).steps[3]: there is no edge between 0 and 1";
-    assert_eq!(reason, wanted);
-    // 2-3, 0-1 with 0-3; then 1 is an end of a pinched edge 0-1, and so on: by hand.
-    let steps = json!([[0, 3, 1], [4, 0, 1], [2, 3, 4], [5, 1, 0, 2]]);
-    let start = ("E/0/start", json!([1, 3]));
-    let fine = changed("affine-bipartite", &[("E/0/steps", steps), start]);
-    assert_eq!(verified(&fine).rank.0, 36);
-}
-
-#[test]
 fn section_7_evidence_of_a_model() {
-    let pinching = json!({"kind": "pinching", "start": [0, 1], "steps": [], "rank": 1});
     let kinds = [
         json!({"kind": "minor", "prime": "101", "seed": "1", "draw": 0, "rows": [], "cols": []}),
         json!({"kind": "integer-minor", "numerator": 1, "denominator": 1, "seed": "1", "draw": 0,
@@ -173,20 +92,18 @@ fn section_7_evidence_of_a_model() {
         "rows": [], "cols": []});
     for model in ["projective", "calibrated"] {
         let name = ["square", "pentagon-calibrated"][usize::from(model == "calibrated")];
-        for (kind, value) in [("pinching", &pinching), ("plane-minor", &minor)] {
-            let wanted = format!("E/[0] ({kind}): not evidence in the {model} model");
-            refused(name, &[("E/0", value.clone())], &wanted);
-        }
+        let wanted = format!("E/[0] (plane-minor): not evidence in the {model} model");
+        refused(name, &[("E/0", minor.clone())], &wanted);
     }
-    let missing = json!({"kind": "pinching", "start": [0, 1], "steps": []});
+    let mut missing = minor.clone();
+    missing.as_object_mut().unwrap().remove("cols");
     let reason = rejection(&changed("affine-bipartite", &[("E/0", missing)]), None);
-    assert!(
-        reason.starts_with("the member `rank` is missing"),
-        "{reason}"
-    );
-    let more = json!({"kind": "pinching", "start": [0, 1], "steps": [], "rank": 1, "prime": null});
+    let wanted = "the member `cols` is missing";
+    assert!(reason.starts_with(wanted), "{reason}");
+    let mut more = minor;
+    more["rank"] = json!(0);
     let reason = rejection(&changed("affine-bipartite", &[("E/0", more)]), None);
-    let wanted = "the member `prime` does not belong there";
+    let wanted = "the member `rank` does not belong there";
     assert!(reason.starts_with(wanted), "{reason}");
 }
 
@@ -232,6 +149,22 @@ fn section_7_plane_minors() {
             &format!("{step}: {reason}"),
         );
     }
+    // Without its last pivot it proves a rank less.
+    let fewer = [
+        ("E/0/rows", json!([0, 1, 2, 3, 4, 5, 6, 7])),
+        ("E/0/cols", json!([0, 1, 6, 2, 3, 7, 4, 5])),
+    ];
+    refused(
+        "affine-bipartite",
+        &fewer,
+        "pieces[0]: rank 32 is proved, but one component needs 36",
+    );
+    let none = [("E/0/rows", json!([])), ("E/0/cols", json!([]))];
+    refused(
+        "affine-bipartite",
+        &none,
+        "pieces[0]: rank 0 is proved, but one component needs 36",
+    );
     // Four points modulo 5 soon meet.
     let void = (0..100).any(|seed| {
         let draw = [
@@ -266,8 +199,8 @@ fn section_7_counting_and_classes() {
     );
     // The class of K_{3,3} alone is rigid only with all of its edges.
     let changes = [
-        ("E/2/classes/0/evidence/0/steps/3", json!([5, 0, 1])),
-        ("E/2/classes/0/evidence/0/rank", json!(8)),
+        ("E/2/classes/0/evidence/0/rows/8", json!("remove")),
+        ("E/2/classes/0/evidence/0/cols/8", json!("remove")),
     ];
     refused(
         "affine-hinges",
@@ -330,10 +263,10 @@ fn section_7_a_class_that_does_not_move_as_one() {
 fn section_7_separation() {
     let not_separated = "claim.components: classes of a piece are not separated";
     refused("affine-square", &[("E/3", json!("remove"))], not_separated);
-    // The same rank by pinching: proved, but not at the points of the motion.
-    let pinching = json!({"kind": "pinching", "start": [0, 1], "steps": [[2, 1], [3, 0, 2]],
-        "rank": 4});
-    refused("affine-square", &[("E/0", pinching.clone())], not_separated);
+    // The same rank at other points: proved, but not at the points of the motion.
+    refused("affine-square", &[("E/0/seed", json!("2"))], not_separated);
+    let mut elsewhere = named("affine-square")["pieces"][0]["evidence"][0].clone();
+    elsewhere["seed"] = json!("2");
     // A minor there that is too small does not help.
     let mut value = named("affine-square");
     for list in ["rows", "cols"] {
@@ -341,14 +274,13 @@ fn section_7_separation() {
         list.unwrap().pop();
     }
     let evidence = value["pieces"][0]["evidence"].as_array_mut().unwrap();
-    evidence.push(pinching);
+    evidence.push(elsewhere.clone());
     assert_eq!(rejection(&value, None), not_separated);
     // With the whole minor both are there, and one of them is enough.
     let mut value = named("affine-square");
     let minor = value["pieces"][0]["evidence"][0].clone();
     let evidence = value["pieces"][0]["evidence"].as_array_mut().unwrap();
-    evidence[0] = json!({"kind": "pinching", "start": [0, 1], "steps": [[2, 1], [3, 0, 2]],
-        "rank": 4});
+    evidence[0] = elsewhere;
     evidence.push(minor);
     assert_eq!(verified(&value).components.0, 4);
 }
@@ -384,7 +316,7 @@ fn section_8_claims() {
         (
             "/model",
             json!("calibrated"),
-            "pieces[0].evidence[0] (pinching): not evidence in the calibrated model",
+            "pieces[0].evidence[0] (plane-minor): not evidence in the calibrated model",
         ),
     ] {
         refused("affine-bipartite", &[(pointer, wrong)], reason);

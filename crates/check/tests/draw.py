@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
-"""Fills in what a certificate has from its draws of cameras: pivots, determinants and kernel vectors;
-and pinching sequences, by looking at all sets of nodes.
+"""Fills in what a certificate has from its draws of cameras: pivots, determinants and kernel vectors.
 
     draw.py CERTIFICATE...            rewrites each file in place
     draw.py --check CERTIFICATE...    changes nothing; exit code 1 if something would change
@@ -324,38 +323,6 @@ def camera_at(c, p):
     return [[int(r == k) for k in range(3)] + [-c[r] % p] for r in range(3)]
 
 
-# --- section 7: pinching, by the definition of sparse sets of edges ----------------------------
-
-def is_sparse(nodes, edges):
-    """Every set of at least two nodes spans at most 2 |X| - 3 edges."""
-    sets = (set(one) for size in range(2, len(nodes) + 1) for one in combinations(nodes, size))
-    return all(sum(i in one and j in one for i, j in edges) <= 2 * len(one) - 3 for one in sets)
-
-
-def pinching(core):
-    """Start, steps and rank: a largest sparse set of core edges, more edges until there are 2 n - 3,
-    and Henneberg's steps backwards."""
-    nodes, edges = list(range(core.nodes)), []
-    for edge in core.edges + list(combinations(nodes, 2)):
-        if edge not in edges and is_sparse(nodes, edges + [edge]):
-            edges.append(edge)
-    assert len(edges) == 2 * core.nodes - 3
-    rank, steps = sum(edge in core.edges for edge in edges), []
-    while len(nodes) > 2:
-        degree = {node: sum(node in edge for edge in edges) for node in nodes}
-        z = max((node for node in nodes if degree[node] <= 3), key=lambda node: (-degree[node], node))
-        ends = sorted(sum(edge) - z for edge in edges if z in edge)
-        nodes, edges = [node for node in nodes if node != z], [edge for edge in edges if z not in edge]
-        if len(ends) == 3:
-            a, b = next(pair for pair in combinations(ends, 2)
-                        if pair not in edges and is_sparse(nodes, edges + [pair]))
-            edges.append((a, b))
-            ends = [a, b] + [c for c in ends if c not in (a, b)]
-        steps.append([z] + ends)
-    assert edges == [tuple(nodes)]
-    return nodes, steps[::-1], rank
-
-
 # --- the evidence ---------------------------------------------------------------------------
 
 class Filler:
@@ -407,7 +374,7 @@ class Filler:
 
     def lower(self, core, evidence):
         kind = {"minor": self.minor, "integer-minor": self.integer_minor, "plane-flow": self.plane_flow,
-                "pinching": self.pinching, "plane-minor": self.plane_minor}
+                "plane-minor": self.plane_minor}
         if evidence["kind"] in kind:
             kind[evidence["kind"]](core, evidence)
 
@@ -494,9 +461,6 @@ class Filler:
                                    for omega, (_, j) in zip(omegas, core.edges)])
         evidence["lambda_rows"], evidence["lambda_cols"] = pivots(rows_of_lambda, p)
 
-    def pinching(self, core, evidence):
-        evidence["start"], evidence["steps"], evidence["rank"] = pinching(core)
-
     def plane_minor(self, core, evidence):
         p = int(evidence["prime"])
         points = plane_points(self.stream(b"draw", core, evidence), p, core.nodes)
@@ -581,7 +545,7 @@ def written(document):
     """One line, but for a line feed before each list and claim that is worth one."""
     text = json.dumps(document, separators=(",", ":"))
     for name in ('"parts":[[', '"model"', '"rank":{', '"components":{', '"bodies"', '"rigid"', '"edges":[', '"pieces"',
-                 '"evidence"', '"steps"', '"cols"', '"determinant"', '"flows"', '"lambda_rows"', '"lambda_cols"', '"split"'):
+                 '"evidence"', '"cols"', '"determinant"', '"flows"', '"lambda_rows"', '"lambda_cols"', '"split"'):
         text = text.replace("," + name, ",\n " + name)
     return text + "\n"
 

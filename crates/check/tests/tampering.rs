@@ -154,7 +154,7 @@ fn all_are_verified() {
 /// pivots or cameras).
 #[test]
 fn no_changed_scalar_changes_what_is_verified() {
-    const OTHER_PROOF: [&str; 13] = [
+    const OTHER_PROOF: [&str; 11] = [
         "name",
         "program",
         "rows",
@@ -166,8 +166,6 @@ fn no_changed_scalar_changes_what_is_verified() {
         "draw",
         "add",
         "at",
-        "start",
-        "steps",
     ];
     let mut rejected = 0;
     for (path, text) in certificates().into_iter().chain([by_rank()]) {
@@ -260,8 +258,11 @@ fn members_are_there_once() {
                 let changed = replaced(&text, &value, other);
                 // Without its kernel an integer minor is a lower bound still.
                 let weaker = name == "kernel" && other == "[]";
+                // Modulo 7 the minor of a class in the plane is no zero either.
+                let another = name == "prime" && path.ends_with("/affine-hinges.json");
                 if changed != text
                     && !weaker
+                    && !another
                     && !["name", "program", "seed", "draw"].contains(&name.as_str())
                 {
                     assert!(

@@ -247,8 +247,8 @@ fn full_rank(verdict: &Verdict) -> String {
         Some(Evidence::PlaneFlow { draw, .. }) => {
             format!("full rank at one camera set modulo {}", draw.prime)
         }
-        Some(Evidence::Pinching { rank, .. }) => {
-            format!("counting shows full rank in the plane, {rank} edges of the core")
+        Some(Evidence::PlaneMinor { draw, .. }) => {
+            format!("full rank at points in the plane modulo {}", draw.prime)
         }
         _ => "full rank".into(),
     }

@@ -141,7 +141,7 @@ pub fn triangle_strip(nodes: u32) -> Graph {
 }
 
 /// A random graph that is affine solvable with the fewest edges possible: each node is joined to two
-/// earlier ones or, as often, to three of which two lose their edge (theory, Lemma 13.5).
+/// earlier ones or, as often, to three of which two lose their edge (Henneberg's steps).
 ///
 /// # Panics
 /// If there are fewer than two nodes.

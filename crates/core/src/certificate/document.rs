@@ -18,7 +18,6 @@ use crate::graph::{Graph, graph6};
 use crate::linalg::integer::Integer;
 use crate::linalg::textbook::Pivots;
 use crate::solutions::Solutions;
-use crate::sparsity::PinchingStep;
 use serde::ser::{SerializeMap, SerializeSeq};
 use serde::{Serialize, Serializer};
 
@@ -306,13 +305,6 @@ impl Serialize for View<'_, Evidence> {
             }
             Evidence::IntegerMinor(minor) => integer_minor(&mut map, minor)?,
             Evidence::PlaneFlow { draw, rank } => plane_flow(&mut map, draw, rank)?,
-            Evidence::Pinching { pinching, rank } => {
-                map.serialize_entry("kind", "pinching")?;
-                map.serialize_entry("start", &pinching.start)?;
-                let steps: Vec<Vec<u32>> = pinching.steps.iter().map(flat).collect();
-                map.serialize_entry("steps", &steps)?;
-                map.serialize_entry("rank", rank)?;
-            }
             Evidence::PlaneMinor { draw, pivots } => {
                 map.serialize_entry("kind", "plane-minor")?;
                 map.serialize_entry("prime", &Big(draw.prime))?;
@@ -343,13 +335,6 @@ impl Serialize for View<'_, Evidence> {
         }
         map.end()
     }
-}
-
-/// The new node, the ends of the pinched edge, the further ends.
-fn flat(step: &PinchingStep) -> Vec<u32> {
-    let pinched = step.pinched.into_iter().flat_map(|(a, b)| [a, b]);
-    let ends = pinched.chain(step.ends.iter().copied());
-    std::iter::once(step.node).chain(ends).collect()
 }
 
 fn seed_and_draw<M: SerializeMap>(map: &mut M, draw: &ModularDraw) -> Result<(), M::Error> {

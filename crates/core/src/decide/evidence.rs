@@ -7,7 +7,6 @@ use crate::geometry::model::Model;
 use crate::geometry::plane_flow::PlaneFlowRank;
 use crate::linalg::integer::Integer;
 use crate::linalg::textbook::Pivots;
-use crate::sparsity::Pinching;
 
 /// Where the cameras of a piece of evidence come from: a prime and a draw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,13 +37,6 @@ pub enum Evidence {
         draw: ModularDraw,
         /// The pivots.
         rank: PlaneFlowRank,
-    },
-    /// A sequence of pinchings on the nodes of the core (affine model).
-    Pinching {
-        /// The sequence.
-        pinching: Pinching,
-        /// How many of its last edges are edges of the core.
-        rank: usize,
     },
     /// Pivots of R modulo p (affine model).
     PlaneMinor {
@@ -87,7 +79,7 @@ impl Evidence {
                 };
                 classes.iter().filter_map(of_class).min()
             }
-            Self::Pinching { .. } | Self::Counting(_) | Self::Draws(_) => None,
+            Self::Counting(_) | Self::Draws(_) => None,
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Deciding one piece in the affine model, by counting alone (docs/theory.md, section 13).
 //!
 //! In: the members of a piece. Out: its rank and components, which pebble games find exactly, and
-//! the evidence for both. A piece of full rank has a sequence of pinchings; what falls short has a
-//! partition whose bound is the rank, and a motion at drawn points that separates the components.
+//! the evidence for both: a minor of R at drawn points. What falls short of full rank has a partition
+//! whose bound is the rank besides, and a motion at these points that separates the components.
 
 use crate::contract::Contraction;
 use crate::contract::piece::{Assembly, Core, Members};
@@ -16,6 +16,7 @@ use crate::geometry::draw::DrawKey;
 use crate::geometry::model::Model;
 use crate::geometry::plane_direction::PlaneDirections;
 use crate::graph::{Graph, KnownParts, core_sha256};
+use crate::linalg::prime::PrimeField;
 use crate::sparsity::Plane;
 use crate::watch::{Step, Stopped, Task, Watch};
 use rayon::prelude::*;
@@ -119,7 +120,7 @@ impl Piece<'_> {
         let (rank, nodes) = (found.rank(), self.core.graph.nodes());
         let deficit = full(nodes) - rank;
         let evidence = if deficit == 0 {
-            vec![pinching(found, &self.task(Step::Counting))?]
+            vec![self.minor(&self.core, rank, |_, _, _| Some(()))?.0]
         } else {
             self.separate(rank, &components)?
         };
@@ -145,44 +146,38 @@ impl Piece<'_> {
         self.members.grouped(|member| of_member[member])
     }
 
-    /// A minor of full size at drawn points, the bound by the components, which it meets, and a
-    /// motion at these points that tells the components apart (Theorem 13.13).
-    fn separate(&self, rank: usize, components: &[Members]) -> Result<Vec<Evidence>, VerdictError> {
-        let counting = Counting::partition(Model::Affine, self.assembly, components);
-        let field = self.options.prime.for_core(self.core.graph.nodes());
+    /// A minor of the rank of a core at drawn points, and what is found at these, if all is.
+    fn minor<T>(
+        &self,
+        core: &Core,
+        rank: usize,
+        find: impl Fn(&PrimeField, &PlaneDirections, DrawKey) -> Option<T>,
+    ) -> Result<(Evidence, ModularDraw, T), VerdictError> {
+        let nodes = core.graph.nodes();
+        let field = self.options.prime.for_core(nodes);
         let mut key = DrawKey {
             graph_sha256: *self.sha256,
-            core_sha256: Some(core_sha256(&self.core.nodes, &self.core.graph)),
+            core_sha256: Some(core_sha256(&core.nodes, &core.graph)),
             seed: self.options.seed,
             draw: 0,
         };
         for _ in 0..ATTEMPTS {
-            let points = draw::points_mod(&field, self.core.graph.nodes(), &key)?;
+            let points = draw::points_mod(&field, nodes, &key)?;
             key.draw = points.draw;
-            let draw = ModularDraw {
-                prime: field.modulus(),
-                seed: key.seed,
-                draw: points.draw,
-            };
-            let task = self.task(Step::Components);
-            let directions = PlaneDirections::new(&field, &self.core.graph, &points.values, &task)?;
-            let (vector, transforms) = directions.motion(key.residues(&field));
-            let found = motion_class::classes(self.members, &self.core, &transforms);
-            key.draw += 1;
-            if directions.rank() < rank || found != components {
-                continue;
+            let task = self.options.watch.task(Step::Components, nodes);
+            let directions = PlaneDirections::new(&field, &core.graph, &points.values, &task)?;
+            if directions.rank() == rank
+                && let Some(found) = find(&field, &directions, key)
+            {
+                let draw = ModularDraw {
+                    prime: field.modulus(),
+                    seed: key.seed,
+                    draw: key.draw,
+                };
+                let pivots = directions.pivots();
+                return Ok((Evidence::PlaneMinor { draw, pivots }, draw, found));
             }
-            let pivots = directions.pivots();
-            let classes = components.iter().map(|members| self.class(members));
-            return Ok(vec![
-                Evidence::PlaneMinor { draw, pivots },
-                Evidence::Counting(counting),
-                Evidence::Classes(classes.collect::<Result<_, _>>()?),
-                Evidence::Kernel {
-                    draw,
-                    vector: vector.iter().map(|&x| field.to_u64(x)).collect(),
-                },
-            ]);
+            key.draw += 1;
         }
         Err(VerdictError::Undecided {
             prime: field.modulus(),
@@ -190,29 +185,36 @@ impl Piece<'_> {
         })
     }
 
-    /// A component, with a sequence of pinchings for its own core.
-    fn class(&self, members: &Members) -> Result<Class, Stopped> {
+    /// The minor, the bound by the components, which it meets, and a motion at the minor's points
+    /// that tells the components apart (Theorem 13.13).
+    fn separate(&self, rank: usize, components: &[Members]) -> Result<Vec<Evidence>, VerdictError> {
+        let motion = |field: &PrimeField, directions: &PlaneDirections, key: DrawKey| {
+            let (vector, transforms) = directions.motion(key.residues(field));
+            let found = motion_class::classes(self.members, &self.core, &transforms);
+            (found == components).then(|| vector.iter().map(|&x| field.to_u64(x)).collect())
+        };
+        let (minor, draw, vector) = self.minor(&self.core, rank, motion)?;
+        let counting = Counting::partition(Model::Affine, self.assembly, components);
+        let classes = components.iter().map(|members| self.class(members));
+        let classes = Evidence::Classes(classes.collect::<Result<_, _>>()?);
+        let kernel = Evidence::Kernel { draw, vector };
+        Ok(vec![minor, Evidence::Counting(counting), classes, kernel])
+    }
+
+    /// A component, with a minor of its own core.
+    fn class(&self, members: &Members) -> Result<Class, VerdictError> {
         let kind = if members.len() == 1 {
             ClassKind::Single
         } else {
             let core = self.assembly.core(members);
-            let task = self.options.watch.task(Step::Counting, core.graph.nodes());
-            let found = Plane::new(&core.graph, &task)?;
-            ClassKind::Rigid(vec![pinching(found, &task)?])
+            let rank = full(core.graph.nodes());
+            ClassKind::Rigid(vec![self.minor(&core, rank, |_, _, _| Some(()))?.0])
         };
         Ok(Class {
             members: members.clone(),
             kind,
         })
     }
-}
-
-/// Why so many edges of a core are independent.
-fn pinching(found: Plane, task: &Task) -> Result<Evidence, Stopped> {
-    Ok(Evidence::Pinching {
-        rank: found.rank(),
-        pinching: found.pinching(task)?,
-    })
 }
 
 #[cfg(test)]

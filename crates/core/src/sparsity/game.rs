@@ -9,7 +9,7 @@ pub(super) struct PebbleGame<const K: usize, const L: usize> {
     paid: Vec<[u32; K]>,
     /// ... and how many these are.
     spent: Vec<u8>,
-    /// The other ends of all edges at a node, in either direction; some may be gone.
+    /// The other ends of all edges at a node, in either direction.
     adjacent: Vec<Vec<u32>>,
     search: Search,
 }
@@ -65,10 +65,6 @@ impl<const K: usize, const L: usize> PebbleGame<K, L> {
         }
     }
 
-    pub(super) fn nodes(&self) -> usize {
-        self.paid.len()
-    }
-
     fn heads(&self, v: u32) -> &[u32] {
         &self.paid[v as usize][..self.spent[v as usize].into()]
     }
@@ -78,14 +74,8 @@ impl<const K: usize, const L: usize> PebbleGame<K, L> {
     }
 
     /// Whether there is an edge between two nodes.
-    pub(super) fn joins(&self, u: u32, v: u32) -> bool {
+    fn joins(&self, u: u32, v: u32) -> bool {
         self.heads(u).contains(&v) || self.heads(v).contains(&u)
-    }
-
-    /// The nodes with an edge to `v`, of a graph without copies.
-    pub(super) fn neighbours(&self, v: u32) -> impl Iterator<Item = u32> {
-        let all = self.adjacent[v as usize].iter().copied();
-        all.filter(move |&w| self.joins(v, w))
     }
 
     /// Adds an edge if it is independent of those there are; returns whether it is.
@@ -98,16 +88,6 @@ impl<const K: usize, const L: usize> PebbleGame<K, L> {
         self.adjacent[u as usize].push(v);
         self.adjacent[v as usize].push(u);
         true
-    }
-
-    /// Removes a node with its edges.
-    pub(super) fn remove(&mut self, v: u32) {
-        for w in std::mem::take(&mut self.adjacent[v as usize]) {
-            while self.heads(w).contains(&v) {
-                self.take_back(w, v);
-            }
-        }
-        self.spent[v as usize] = 0;
     }
 
     fn pay(&mut self, tail: u32, head: u32) {

@@ -1,19 +1,17 @@
 //! Counting alone: (K, L)-sparse edge sets (docs/theory.md, sections 5 and 13).
 //!
 //! In: the edges of a graph, each with 2 K - L copies. Out: how many of these are independent, the
-//! components, and for [`Plane`] a sequence of pinchings that proves the first number (Lemma 13.5).
-//! In the plane and in space this is the rank of R and of N at generic points (Corollary 13.8), in
-//! the projective model the smallest bound by a partition (Theorem 5.1). No arithmetic: pebble games.
+//! components. In the plane and in space the first number is the rank of R and of N at generic points
+//! (Corollary 13.8), in the projective model the smallest bound by a partition (Theorem 5.1). No
+//! arithmetic: pebble games.
 
 mod blocks;
 mod circuits;
 mod game;
-mod pinching;
 #[cfg(test)]
 mod tests;
 
 pub use circuits::groups;
-pub use pinching::{Pinching, Step as PinchingStep};
 
 use crate::graph::Graph;
 use crate::watch::{Stopped, Task};
@@ -24,7 +22,6 @@ use game::PebbleGame;
 /// of n >= 2 nodes spans more than K n - L. With it the components of the graph.
 #[derive(Clone, Debug)]
 pub struct Sparsity<const K: usize, const L: usize> {
-    game: PebbleGame<K, L>,
     /// How many copies of each edge are in the set.
     copies: Vec<u8>,
     /// The number of its component for every edge.
@@ -51,7 +48,7 @@ impl<const K: usize, const L: usize> Sparsity<K, L> {
     pub fn new(graph: &Graph, task: &Task) -> Result<Self, Stopped> {
         let edges = graph.edges();
         let work = task.begin(2 * edges.len() as u64);
-        let mut game = PebbleGame::new(graph.nodes());
+        let mut game = PebbleGame::<K, L>::new(graph.nodes());
         let mut blocks = Blocks::new(graph.nodes());
         let mut copies = vec![0u8; edges.len()];
         for (&(u, v), copies) in edges.iter().zip(&mut copies) {
@@ -79,7 +76,6 @@ impl<const K: usize, const L: usize> Sparsity<K, L> {
             component.push(number);
         }
         Ok(Self {
-            game,
             copies,
             component,
             components: components.len(),
@@ -89,11 +85,6 @@ impl<const K: usize, const L: usize> Sparsity<K, L> {
     /// The size of the set: in the plane the generic rank of R, in space of N.
     pub fn rank(&self) -> usize {
         self.copies.iter().map(|&copies| usize::from(copies)).sum()
-    }
-
-    /// How many copies of each edge are in the set.
-    pub fn copies(&self) -> &[u8] {
-        &self.copies
     }
 
     /// The number of its component for every edge, below [`components`](Self::components).
@@ -118,18 +109,5 @@ impl<const K: usize, const L: usize> Sparsity<K, L> {
             nodes.dedup();
         }
         nodes
-    }
-}
-
-impl Plane {
-    /// Why so many edges are independent.
-    ///
-    /// # Errors
-    /// If the task was stopped.
-    ///
-    /// # Panics
-    /// If there are fewer than two nodes.
-    pub fn pinching(self, task: &Task) -> Result<Pinching, Stopped> {
-        Pinching::reduce(self.game, task)
     }
 }

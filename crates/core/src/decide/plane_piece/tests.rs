@@ -65,8 +65,8 @@ fn check_evidence(assembly: &Assembly, piece: &PieceVerdict, sha256: [u8; 32]) {
     let above = full(core.total_nodes) - full_core;
     let kinds: Vec<_> = piece.evidence.iter().collect();
     match kinds[..] {
-        [Evidence::Pinching { rank, .. }] => {
-            assert_eq!((*rank, piece.components.len()), (full_core, 1));
+        [Evidence::PlaneMinor { pivots, .. }] => {
+            assert_eq!((pivots.rank(), piece.components.len()), (full_core, 1));
         }
         [
             Evidence::PlaneMinor { draw, pivots },
