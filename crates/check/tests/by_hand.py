@@ -171,20 +171,19 @@ The 4-cycle, with edges 0-1, 0-3, 1-2, 2-3 (graph6 `Cl`), modulo 11, so that eve
    {blocks}]}}]}}]}}
 ```
 
-*Structure.* There are no bodies, so all four edges are loose, they are the one piece, and the core is the 4-cycle itself: n' = 4,
-m' = 4, `required` = 11 * 4 - 15 = 29.
+*Structure.* There are no bodies, so all four edges are loose and form the one piece. The core is the 4-cycle itself: n' = 4,
+m' = 4, and `required` is 11 * 4 - 15 = 29.
 
 *Upper bound.* Four blocks of two nodes: 4 * (11 * 2 - 15) = 4 * 7 = 28.
 
 *Centres.* The SHA-256 of the core is `{core.hash.hex()}`, and the key of draw 0 with seed
-{e.seed} is `{e.key.hex()}`. Uniform values below 11
-are low four bits of words of its stream, which begin {listed(e.words)}; without those of 11
-and more they are, three for each node,
+{e.seed} is `{e.key.hex()}`. The low four bits of the words of its stream
+begin {listed(e.words)}. Those below 11 are the uniform values, three for each node:
 
     {"    ".join(f"c_{v} = ({listed(c[v])})" for v in range(4))}
 
-*N.* The differences d of the edges are {listed(f"({listed(one)})" for one in d)}; all have d_0 != 0, so q = 0, r = 1, s = 2, and
-the two directions of an edge are (-d_1, d_0, 0) and (-d_2, 0, d_0). Blanks are zeros.
+*N.* The differences d of the edges are {listed(f"({listed(one)})" for one in d)}. All have d_0 != 0, so q = 0, r = 1, s = 2.
+The two directions of an edge are (-d_1, d_0, 0) and (-d_2, 0, d_0). Blanks are zeros.
 
 | row | edge | 0 | 1 | 2 | 3 | 4 | 5 | 6 | 7 | 8 | 9 | 10 | 11 |
 |---|---|---|---|---|---|---|---|---|---|---|---|---|---|
@@ -193,15 +192,15 @@ the two directions of an edge are (-d_1, d_0, 0) and (-d_2, 0, d_0). Blanks are 
 *Pivots.* Row 0 at column 1: {n[0][1]}. Row 1 at column 2: {n[1][2]}. Rows 4 and 5 have nothing in columns 1 and 2, and {n[4][4]} in columns 4 and 5. Rows 6
 and 7 have nothing in these, and {n[6][7]} in columns 7 and 8. So far nothing had to be eliminated.
 
-Row 2 less {first[0]} times row 0, less {first[1]} times row 4, less {first[2]} times row 6 is zero in columns 1, 4 and 7; what is left are {listed(left)} in columns 0, 3,
-6, 9. The pivot in column 0 is {left[0]}. Row 3 less {second[0]} times row 1, less {second[1]} times row 5, less {second[2]} times row 7 leaves {listed(right)} in the same columns;
-less {factor} times what was left of row 2 it has {right[1]} - {factor} * {left[1]} = {last} in column 3, the last pivot. Hence a = 8.
+Subtract {first[0]} times row 0, {first[1]} times row 4 and {first[2]} times row 6 from row 2. It is zero in columns 1, 4 and 7 then, with {listed(left)} left in columns 0, 3,
+6, 9. The pivot in column 0 is {left[0]}. Row 3 less {second[0]} times row 1, {second[1]} times row 5 and {second[2]} times row 7 leaves {listed(right)} in the same columns.
+Less {factor} times what was left of row 2 it has {right[1]} - {factor} * {left[1]} = {last} in column 3, the last pivot. Hence a = 8.
 
-*Lower bound.* f = 0, Lambda has no pivots, and 4 a + b - m' = 4 * 8 + 0 - 4 = 28, the same as the upper bound. It is below 29: not finite
-solvable, as a proof; and the rank is 28, as a proof.
+*Lower bound.* f = 0, Lambda has no pivots, and 4 a + b - m' is 4 * 8 + 0 - 4 = 28, as is the upper bound.
+So the rank is 28, as a proof. It is below 29: not finite solvable, as a proof.
 
-*Motion.* The vector is dP_0 = dP_1 = 0, dP_2 = (c_1 - c_2) w^T and dP_3 = (c_0 - c_3) z^T with w = ({listed(e.w)}), z = ({listed(e.z)}). For
-example, its entry 24, entry (0, 0) of dP_2, is {e.d12[0]} * {e.w[0]} = {entry % P}. With C_v = (c_v, 1), for which P_u C_v = c_v - c_u:
+*Motion.* The vector is dP_0 = dP_1 = 0, dP_2 = (c_1 - c_2) w^T and dP_3 = (c_0 - c_3) z^T.
+Here w = ({listed(e.w)}) and z = ({listed(e.z)}). For example, its entry 24, entry (0, 0) of dP_2, is {e.d12[0]} * {e.w[0]} = {entry % P}. With C_v = (c_v, 1), for which P_u C_v = c_v - c_u:
 
 * edge 0-1: X = 0, lambda = 0;
 * edge 1-2: X = C_1 w^T, lambda = 0: P_1 C_1 = 0 and P_2 C_1 = c_1 - c_2;
@@ -220,8 +219,8 @@ example, its entry 24, entry (0, 0) of dP_2, is {e.d12[0]} * {e.w[0]} = {entry %
   The first row of P_2 X, for one, is the first row of X less {c[2][0]} times its last: ({row}).
 
 *Components.* The first two entries of the last row of X are {listed(f"({listed(e.marks[k])})" for k in range(4))} on the edges 0-1, 1-2, 0-3, 2-3. Multiples of I do not
-touch them, so the four X are different: the four classes are told apart, at the draw at which the lower bound equals the upper one, which
-makes it a proof. Each class is a single edge, so there are four components.
+touch them, so the four X are different, and the four classes are separated. This is a proof: at this draw the lower bound equals the upper one.
+Each class is a single edge, so there are four components.
 '''
 
 
