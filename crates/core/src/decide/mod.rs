@@ -13,8 +13,6 @@
 //!     class      a single member, or of full rank by itself: a component;
 //!                else split again, and its pieces decided as these are
 //!     counting   a partition and hubs -> an upper bound                     5
-//!     overlap    bounds of two parts less what they share -> another        5.11
-//!     added      one of both for the piece with pairs that it implies        5.13
 //!                a gap is left: draws that nobody chooses, an error bound   7.2
 //!   conclude   ranks add up; the verdict, and the components                4.6
 //!   solutions  how many a finite solvable graph has: one makes it solvable   10
@@ -22,7 +20,7 @@
 //!
 //! In the affine model counting alone decides a piece (section 13), in `plane_piece`. The other
 //! pieces are in `one_piece` and `walk`, bodies that ranks give before in `bodies_by_rank`, their ranks at some
-//! centres in `drawn`, classes in `motion_class`, bounds in `counting`, `overlap` and `added`, the
+//! centres in `drawn`, classes in `motion_class`, bounds in `counting`, the
 //! paper's own matrix (`--method matrix`, `--rational`) in `whole_matrix`, the number of solutions in
 //! `solution_count`. What unknown base lines that frames share add to it is in `base_lines`; what a decided
 //! graph can notice (section 15) in `noticed`. What is asked is in `question`, with what it is decided in
