@@ -19,8 +19,8 @@ pub(super) struct QuestionArguments {
     /// What is known of the cameras [default: projective; with --tracks calibrated].
     #[arg(long, value_enum)]
     model: Option<ModelName>,
-    /// Decide the graph of cameras and points, of a COLMAP database or model, Bundler, BAL, NVM or
-    /// OpenMVG: do the tracks determine all positions, rotations being known? Implies --model
+    /// Decide the graph of cameras and points, of a COLMAP database or model, Bundler, BAL, NVM,
+    /// OpenMVG, AliceVision or OpenSfM: do the tracks determine all positions, rotations being known? Implies --model
     /// calibrated.
     #[arg(long)]
     tracks: bool,

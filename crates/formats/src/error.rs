@@ -535,7 +535,7 @@ impl Problem {
             Self::Truncated(_) | Self::Corrupt(_) => "copy or write the file again",
             Self::Database(error) => error.remedy(),
             Self::NoTracks => {
-                "they come from a COLMAP database or model, Bundler's bundle.out, BAL, NVM and OpenMVG's matches; leave out --tracks to decide a graph of pairs"
+                "they come from a COLMAP database or model, Bundler's bundle.out, BAL, NVM, and files of OpenMVG, AliceVision and OpenSfM; leave out --tracks to decide a graph of pairs"
             }
             Self::NoModel => "name the folder that has all files of the model",
             Self::Model | Self::Tracks(_) => {

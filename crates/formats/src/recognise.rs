@@ -321,20 +321,36 @@ fn markup(text: &str) -> Option<Problem> {
     if lower.contains("<gexf") {
         return Some(foreign(GEXF, GEXF_ADVICE));
     }
+    if start.contains("<chunk") || start.contains(".files/project.zip") {
+        let what = "a project or a file of cameras of Metashape without matches";
+        return Some(foreign(
+            what,
+            "export the cameras as Bundler (.out), and give that file with --tracks",
+        ));
+    }
     if start.starts_with('<') {
         return Some(foreign("XML", PAIRS));
     }
     let inner = start.strip_prefix(['{', '['])?.trim_start();
     let json = |c: char| "\"{[]}-".contains(c) || c.is_ascii_digit();
     let is_graph = start.starts_with('{') && start.contains("\"nodes\"");
+    let has = |names: &[&str]| {
+        names
+            .iter()
+            .all(|name| start.contains(&format!("\"{name}\"")))
+    };
     let edges = ["\"links\"", "\"edges\""]
         .iter()
         .any(|name| start.contains(name));
     match () {
         () if !inner.starts_with(json) => None,
-        () if start.contains("\"PoseGraph\"") => Some(foreign(
-            "a pose graph of Open3D",
-            "in Python: viewcert.verify([(e['source_node_id'], e['target_node_id']) for e in json.load(open('FILE'))['edges']])",
+        () if has(&["cameras", "shots"]) => Some(foreign(
+            "a reconstruction of OpenSfM or ODM without observations",
+            "give the tracks.csv beside it, with --tracks",
+        )),
+        () if has(&["frames", "transform_matrix"]) => Some(foreign(
+            "a file of cameras of nerfstudio without matches",
+            "give COLMAP's database.db or sparse/0, of which they were made",
         )),
         () if is_graph && edges => Some(foreign(
             "a graph in JSON",

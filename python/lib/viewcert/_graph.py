@@ -439,11 +439,11 @@ def read(
         database; also compressed. (Other files are for networkx, NumPy and h5py, whose graphs and
         arrays :func:`verify` takes.) With `tracks` a
         database, a model (the folder or its points3D file), Bundler's ``bundle.out``, BAL, NVM,
-        or OpenMVG's matches.
+        or a file of OpenMVG, AliceVision or OpenSfM.
     format : str, optional
         The format of files that do not show it: ``'edges'``, ``'graph6'``, ``'sparse6'``,
         ``'matlab'``, ``'matrix-market'``, ``'match-list'``, ``'glomap'``, ``'1dsfm'``,
-        ``'openmvg-pairs'``, ``'raw-matches'``, ``'g2o'`` or ``'graphml'``.
+        ``'openmvg-pairs'``, ``'raw-matches'``, ``'g2o'``, ``'open3d'``, ``'mvsnet'`` or ``'graphml'``.
     variable : str, optional
         The variable of a MATLAB file.
     pipeline, min_inliers : optional

@@ -95,7 +95,7 @@ pub enum Format {
 
 impl Format {
     /// The formats: the names on the command line, the first of which is printed, and what it reads.
-    pub const ALL: [(Self, &'static [&'static str], &'static str); 12] = [
+    pub const ALL: [(Self, &'static [&'static str], &'static str); 14] = [
         (
             Self::Edges,
             &["edges", "edge-list"],
@@ -140,6 +140,16 @@ impl Format {
         ),
         (Self::Document(Document::G2o), &["g2o"], "Pose graph of g2o"),
         (
+            Self::Document(Document::PoseGraph),
+            &["open3d"],
+            "Pose graph of Open3D, JSON",
+        ),
+        (
+            Self::Document(Document::ViewSelection),
+            &["mvsnet"],
+            "MVSNet's pair.txt: each view and the neighbours chosen for it",
+        ),
+        (
             Self::Document(Document::GraphMl),
             &["graphml"],
             "Graph in XML",
@@ -161,7 +171,7 @@ impl FromStr for Format {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "the formats are edges, graph6, sparse6, matlab, matrix-market, match-list, glomap, 1dsfm, \
-     openmvg-pairs, raw-matches, g2o and graphml"
+     openmvg-pairs, raw-matches, g2o, open3d, mvsnet and graphml"
 )]
 pub struct UnknownFormat;
 

@@ -14,6 +14,14 @@ pub(crate) enum TrackFile {
     Nvm,
     /// Matches of OpenMVG as text.
     OpenMvgMatches,
+    /// Matches of AliceVision as text.
+    AliceVisionMatches,
+    /// `sfm_data.json` of OpenMVG.
+    OpenMvg,
+    /// `.sfm` of AliceVision.
+    AliceVision,
+    /// `tracks.csv` of OpenSfM.
+    OpenSfm,
     /// A file of COLMAP's model.
     Colmap { part: Part, encoding: Encoding },
 }
@@ -29,6 +37,10 @@ impl TrackFile {
             Self::Bundler => "Bundler file",
             Self::Nvm => "NVM file of VisualSFM",
             Self::OpenMvgMatches => "feature matches (OpenMVG)",
+            Self::AliceVisionMatches => "feature matches (AliceVision)",
+            Self::OpenMvg => "model of OpenMVG",
+            Self::AliceVision => "model of AliceVision",
+            Self::OpenSfm => "tracks of OpenSfM",
             Self::Colmap { .. } => MODEL,
         }
     }
@@ -40,6 +52,10 @@ impl TrackFile {
             Self::Bundler => "a Bundler file",
             Self::Nvm => "an NVM file of VisualSFM",
             Self::OpenMvgMatches => "a file of feature matches (OpenMVG)",
+            Self::AliceVisionMatches => "a file of feature matches (AliceVision)",
+            Self::OpenMvg => "a model of OpenMVG",
+            Self::AliceVision => "a model of AliceVision",
+            Self::OpenSfm => "a file of tracks of OpenSfM",
             Self::Colmap { part, encoding } => part.title(encoding),
         }
     }
@@ -75,6 +91,11 @@ pub(crate) fn kind(head: &[u8], whole: bool) -> Option<TrackFile> {
         {
             Some(TrackFile::OpenMvgMatches)
         }
+        [first @ [_, _], [count], [kind, matches], ..]
+            if integers(first) && integers(&[count, matches]) && is_describer(kind) =>
+        {
+            Some(TrackFile::AliceVisionMatches)
+        }
         [first, ..] if is_point(first) => colmap(Part::Points),
         [[id, model, sizes @ ..], ..]
             if integers(&[id]) && sizes.len() > 3 && numbers(sizes) && is_camera(model) =>
@@ -98,7 +119,18 @@ pub(crate) fn by_first_words(head: &[u8]) -> Option<TrackFile> {
     let encoding = Encoding::Text;
     let colmap = |part| TrackFile::Colmap { part, encoding };
     let text = head.trim_ascii_start();
+    let has = |name: &str| {
+        text.windows(name.len())
+            .any(|window| window == name.as_bytes())
+    };
+    if text.starts_with(b"{") && has("\"sfm_data_version\"") {
+        return Some(TrackFile::OpenMvg);
+    }
+    if text.starts_with(b"{") && has("\"version\"") && has("\"viewId\"") {
+        return Some(TrackFile::AliceVision);
+    }
     [
+        ("OPENSFM_TRACKS_VERSION_v", TrackFile::OpenSfm),
         ("NVM_V", TrackFile::Nvm),
         ("# Bundle file", TrackFile::Bundler),
         ("# 3D point list", colmap(Part::Points)),
@@ -112,6 +144,11 @@ pub(crate) fn by_first_words(head: &[u8]) -> Option<TrackFile> {
 /// Whether this is the name of a model of cameras: capitals, as SIMPLE_RADIAL.
 fn is_camera(word: &[u8]) -> bool {
     word.iter().all(|b| b.is_ascii_uppercase() || *b == b'_')
+}
+
+/// Whether this may be the name of a describer of AliceVision: small letters, as sift or akaze_ocv.
+fn is_describer(word: &[u8]) -> bool {
+    word[0].is_ascii_lowercase() && word.iter().all(|b| b.is_ascii_alphanumeric() || *b == b'_')
 }
 
 /// Whether this is a line of points3D.txt: a number, three coordinates, a colour, an error, and

@@ -1,7 +1,7 @@
 //! Tracks: points that are seen in several images.
 //!
-//! In: COLMAP's models, Bundler's `bundle.out`, BAL, NVM, OpenMVG's matches, or the matches of a
-//! database ([`colmap`](crate::colmap)). Out: the camera-point graph (docs/theory.md, section 12):
+//! In: COLMAP's models, Bundler's `bundle.out`, BAL, NVM, matches of OpenMVG and AliceVision, models of both, tracks
+//! of OpenSfM, or the matches of a database ([`colmap`](crate::colmap)). Out: the camera-point graph (docs/theory.md, section 12):
 //! nodes are the cameras and behind them the points, edges the observations of every track that
 //! counts, and a summary of those that do not ([`TrackFacts`]). Which of the files it is, is told
 //! by its content (`kind`).
@@ -16,6 +16,7 @@ mod kind;
 mod model;
 mod nvm;
 mod openmvg;
+mod pipelines;
 pub(crate) mod words;
 
 pub use frames::Frames;
@@ -61,7 +62,11 @@ pub(crate) fn read(
         TrackFile::Bal => bal::read(Words::new(input), options),
         TrackFile::Bundler => bundler::read(Words::new(input), options),
         TrackFile::Nvm => nvm::read(Words::new(input), options),
-        TrackFile::OpenMvgMatches => openmvg::read(Words::new(input), options),
+        TrackFile::OpenMvgMatches => openmvg::read(Words::new(input), false, options),
+        TrackFile::AliceVisionMatches => openmvg::read(Words::new(input), true, options),
+        TrackFile::OpenMvg => pipelines::openmvg(input, options),
+        TrackFile::AliceVision => pipelines::alicevision(input, options),
+        TrackFile::OpenSfm => pipelines::opensfm(Words::new(input), options),
         TrackFile::Colmap { part, encoding } => {
             let folder = path.map(|path| path.parent().unwrap_or(Path::new("")));
             model::beside(folder, part, encoding, input, options)
