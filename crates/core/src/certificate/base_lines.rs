@@ -1,6 +1,6 @@
 //! What frames add, as certificates have it (docs/certificate.md, section 13).
 
-use super::objects::{Big, objects};
+use super::objects::{Big, object, objects, written};
 use crate::contract::piece::Members;
 use crate::decide::evidence::ModularDraw;
 use crate::decide::{BaseLinesEvidence, SharedBaseLines};
@@ -11,28 +11,15 @@ objects! {
     BaseLinesView<'a> {
         frames: &'a [Vec<(u32, u32)>],
         known: Vec<u32>,
-        lower: LowerView<'a>,
+        lower: At<'a>,
         upper: Option<UpperView<'a>>,
-        one_axis: Option<LowerView<'a>>,
-    }
-
-    LowerView<'a> {
-        prime: Big<u64>,
-        seed: Big<u64>,
-        draw: u64,
-        rows: &'a [usize],
-        cols: &'a [usize],
+        one_axis: Option<At<'a>>,
     }
 
     UpperView<'a> {
         held: &'a [u32],
-        blocks: Vec<BlockView<'a>>,
+        blocks: &'a [Members],
         bound: usize,
-    }
-
-    BlockView<'a> {
-        bodies: &'a [u32],
-        edges: &'a [(u32, u32)],
     }
 
     ClaimedBaseLines {
@@ -72,34 +59,23 @@ impl<'a> From<&'a SharedBaseLines> for BaseLinesView<'a> {
         Self {
             frames: frames.frames(),
             known: frames.known().collect(),
-            lower: lower.into(),
+            lower: At(lower),
             upper: upper.as_ref().map(|(held, blocks)| UpperView {
                 held,
-                blocks: blocks.iter().map(BlockView::from).collect(),
+                blocks,
                 bound: found.at_most,
             }),
-            one_axis: one_axis.as_ref().map(LowerView::from),
+            one_axis: one_axis.as_ref().map(At),
         }
     }
 }
 
-impl<'a> From<&'a (ModularDraw, Pivots)> for LowerView<'a> {
-    fn from((draw, pivots): &'a (ModularDraw, Pivots)) -> Self {
-        Self {
-            prime: Big(draw.prime),
-            seed: Big(draw.seed),
-            draw: draw.draw,
-            rows: &pivots.rows,
-            cols: &pivots.cols,
-        }
-    }
-}
+/// Pivots, and where they were found.
+struct At<'a>(&'a (ModularDraw, Pivots));
 
-impl<'a> From<&'a Members> for BlockView<'a> {
-    fn from(members: &'a Members) -> Self {
-        Self {
-            bodies: &members.bodies,
-            edges: &members.edges,
-        }
+written! {
+    At<'_>: |own| {
+        prime: Big(own.0.0.prime), seed: Big(own.0.0.seed), draw: own.0.0.draw,
+        rows: own.0.1.rows, cols: own.0.1.cols,
     }
 }

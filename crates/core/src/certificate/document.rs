@@ -5,20 +5,14 @@ mod intrinsics;
 
 use super::EMBED_NODES;
 use super::base_lines::{BaseLinesView, ClaimedBaseLines};
-use super::objects::{Big, bigs, objects};
+use super::objects::{Big, bigs, object, objects, written};
 use super::solutions::{self, ClaimedSolutions, ForeignSolutions, SolutionsView};
 use crate::contract::piece::Members;
 use crate::contract::{Body, Merge, Part, Seed};
-use crate::decide::evidence::{
-    Class, ClassKind, Draws, Evidence, IntegerMinor, ModularDraw, PieceVerdict, Witness,
-};
+use crate::decide::evidence::{Class, Draws, Evidence, PieceVerdict, Witness};
 use crate::decide::{Block, Claim, Counting, Hub, SharedBaseLines, Value, Verdict};
-use crate::geometry::plane_flow::PlaneFlowRank;
 use crate::graph::{Graph, graph6};
-use crate::linalg::integer::Integer;
-use crate::linalg::textbook::Pivots;
 use crate::solutions::Solutions;
-use serde::ser::{SerializeMap, SerializeSeq};
 use serde::{Serialize, Serializer};
 
 objects! {
@@ -30,8 +24,8 @@ objects! {
         model: &'static str,
         claim: ClaimView,
         bodies: Vec<BodyView<'a>>,
-        rigid: MembersView<'a>,
-        pieces: Vec<PieceView<'a>>,
+        rigid: &'a Members,
+        pieces: &'a [PieceVerdict],
         ; optional displacements: &'a [Vec<u32>], vectors: Vec<Vec<[Big<i128>; 3]>>, solutions: SolutionsView<'a>, parts: Vec<&'a [u32]>, base_lines: BaseLinesView<'a>
     }
 
@@ -74,20 +68,9 @@ objects! {
         at: &'a [u32],
     }
 
-    MembersView<'a> {
-        bodies: &'a [u32],
-        edges: &'a [(u32, u32)],
-    }
-
-    PieceView<'a> {
-        bodies: &'a [u32],
-        edges: &'a [(u32, u32)],
-        evidence: List<'a, Evidence>,
-    }
-
-    SplitView<'a> {
-        rigid: MembersView<'a>,
-        pieces: Vec<PieceView<'a>>,
+    SplitView<'a, P> {
+        rigid: &'a Members,
+        pieces: &'a [P],
     }
 }
 
@@ -149,8 +132,8 @@ impl<'a> Document<'a> {
                 .iter()
                 .filter_map(|body| BodyView::new(body, verdict))
                 .collect(),
-            rigid: (&verdict.rigid).into(),
-            pieces: verdict.pieces.iter().map(PieceView::new).collect(),
+            rigid: &verdict.rigid,
+            pieces: &verdict.pieces,
             displacements: Some(verdict.displacements.groups()).filter(|groups| !groups.is_empty()),
             vectors: verdict.displacements.vectors().map(|groups| {
                 let vectors = |group: &Vec<[i128; 3]>| group.iter().map(|v| v.map(Big)).collect();
@@ -196,14 +179,16 @@ impl Serialize for PartView {
 /// What a body starts from; members that are rigid by their rank are written as a piece is.
 enum SeedView<'a> {
     Part(PartView),
-    Rank(PieceView<'a>),
+    Rank(&'a Members, &'a [Evidence]),
 }
 
 impl Serialize for SeedView<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {
             Self::Part(part) => part.serialize(serializer),
-            Self::Rank(members) => members.serialize(serializer),
+            Self::Rank(Members { bodies, edges }, evidence) => {
+                object!(serializer, { bodies: bodies, edges: edges, evidence: evidence })
+            }
         }
     }
 }
@@ -216,14 +201,10 @@ impl<'a> BodyView<'a> {
                 Seed::Edge(i, j) => SeedView::Part(PartView::Edge([i, j])),
                 Seed::Body(k) => SeedView::Part(PartView::Body(k)),
                 Seed::Known => return None,
-                Seed::Rank(k) => {
-                    let members = &verdict.contraction.by_rank[k as usize];
-                    SeedView::Rank(PieceView {
-                        bodies: &members.bodies,
-                        edges: &members.edges,
-                        evidence: List(std::slice::from_ref(&verdict.by_rank[k as usize])),
-                    })
-                }
+                Seed::Rank(k) => SeedView::Rank(
+                    &verdict.contraction.by_rank[k as usize],
+                    std::slice::from_ref(&verdict.by_rank[k as usize]),
+                ),
             },
             add: &body.add,
             merge: body.merge.iter().map(MergeView::new).collect(),
@@ -256,174 +237,62 @@ impl<'a> MergeView<'a> {
     }
 }
 
-impl<'a> From<&'a Members> for MembersView<'a> {
-    fn from(members: &'a Members) -> Self {
-        Self {
-            bodies: &members.bodies,
-            edges: &members.edges,
-        }
+written! {
+    Members: |own| { bodies: own.bodies, edges: own.edges }
+    PieceVerdict: |own| {
+        bodies: own.members.bodies, edges: own.members.edges, evidence: own.evidence,
+    }
+    Block: |own| { bodies: own.members.bodies, edges: own.members.edges, hubs: own.hub.as_slice() }
+    Hub: |own| {
+        node: own.node, parts: own.parts, split: own.split, groups: own.groups,
+        components: own.components, less: own.less,
+    }
+    Class: |own| {
+        bodies: own.members.bodies, edges: own.members.edges, evidence: own.evidence(),
+        split: own.split().map(|(rigid, pieces)| SplitView { rigid, pieces }),
     }
 }
 
-impl<'a> PieceView<'a> {
-    fn new(piece: &'a PieceVerdict) -> Self {
-        Self {
-            bodies: &piece.members.bodies,
-            edges: &piece.members.edges,
-            evidence: List(&piece.evidence),
-        }
-    }
-}
-
-/// A slice whose elements have their own way of being written.
-struct List<'a, T>(&'a [T]);
-
-impl<T> Serialize for List<'_, T>
-where
-    for<'b> View<'b, T>: Serialize,
-{
+impl Serialize for Evidence {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut list = serializer.serialize_seq(Some(self.0.len()))?;
-        for item in self.0 {
-            list.serialize_element(&View(item))?;
-        }
-        list.end()
-    }
-}
-
-struct View<'a, T>(&'a T);
-
-impl Serialize for View<'_, Evidence> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(None)?;
-        match self.0 {
-            Evidence::Minor { draw, pivots } => {
-                map.serialize_entry("kind", "minor")?;
-                map.serialize_entry("prime", &Big(draw.prime))?;
-                seed_and_draw(&mut map, draw)?;
-                rows_and_cols(&mut map, pivots)?;
-            }
-            Evidence::IntegerMinor(minor) => integer_minor(&mut map, minor)?,
-            Evidence::PlaneFlow { draw, rank } => plane_flow(&mut map, draw, rank)?,
-            Evidence::PlaneMinor { draw, pivots } => {
-                map.serialize_entry("kind", "plane-minor")?;
-                map.serialize_entry("prime", &Big(draw.prime))?;
-                seed_and_draw(&mut map, draw)?;
-                rows_and_cols(&mut map, pivots)?;
-            }
-            Evidence::Counting(Counting { blocks, bound }) => {
-                map.serialize_entry("kind", "counting")?;
-                map.serialize_entry("blocks", &List(blocks))?;
-                map.serialize_entry("bound", bound)?;
-            }
-            Evidence::Draws(Draws { seed, count, rank }) => {
-                map.serialize_entry("kind", "draws")?;
-                map.serialize_entry("seed", &Big(seed))?;
-                map.serialize_entry("count", count)?;
-                map.serialize_entry("rank", rank)?;
-            }
-            Evidence::Classes(classes) => {
-                map.serialize_entry("kind", "classes")?;
-                map.serialize_entry("classes", &List(classes))?;
-            }
-            Evidence::Kernel { draw, vector } => {
-                map.serialize_entry("kind", "kernel")?;
-                map.serialize_entry("prime", &Big(draw.prime))?;
-                seed_and_draw(&mut map, draw)?;
-                map.serialize_entry("vector", &bigs(vector))?;
-            }
-        }
-        map.end()
-    }
-}
-
-fn seed_and_draw<M: SerializeMap>(map: &mut M, draw: &ModularDraw) -> Result<(), M::Error> {
-    map.serialize_entry("seed", &Big(draw.seed))?;
-    map.serialize_entry("draw", &draw.draw)
-}
-
-fn rows_and_cols<M: SerializeMap>(map: &mut M, pivots: &Pivots) -> Result<(), M::Error> {
-    map.serialize_entry("rows", &pivots.rows)?;
-    map.serialize_entry("cols", &pivots.cols)
-}
-
-fn integer_minor<M: SerializeMap>(map: &mut M, minor: &IntegerMinor) -> Result<(), M::Error> {
-    map.serialize_entry("kind", "integer-minor")?;
-    map.serialize_entry("numerator", &minor.numerator)?;
-    map.serialize_entry("denominator", &minor.denominator)?;
-    map.serialize_entry("seed", &Big(minor.seed))?;
-    map.serialize_entry("draw", &minor.draw)?;
-    rows_and_cols(map, &minor.pivots)?;
-    let (determinant, prime) = match &minor.witness {
-        Witness::Determinant(determinant) => (Some(Big(determinant)), None),
-        Witness::Prime(prime) => (None, Some(Big(prime))),
-    };
-    map.serialize_entry("determinant", &determinant)?;
-    map.serialize_entry("prime", &prime)?;
-    let kernel: Vec<Vec<Big<&Integer>>> = minor.kernel.iter().map(|vector| bigs(vector)).collect();
-    map.serialize_entry("kernel", &kernel)
-}
-
-fn plane_flow<M: SerializeMap>(
-    map: &mut M,
-    draw: &ModularDraw,
-    rank: &PlaneFlowRank,
-) -> Result<(), M::Error> {
-    map.serialize_entry("kind", "plane-flow")?;
-    map.serialize_entry("prime", &Big(draw.prime))?;
-    seed_and_draw(map, draw)?;
-    rows_and_cols(map, &rank.rigidity)?;
-    map.serialize_entry("flows", &rank.flows)?;
-    map.serialize_entry("lambda_rows", &rank.lambda.rows)?;
-    map.serialize_entry("lambda_cols", &rank.lambda.cols)
-}
-
-impl Serialize for View<'_, Class> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let evidence: &[Evidence] = match &self.0.kind {
-            ClassKind::Rigid(evidence) => evidence,
-            _ => &[],
-        };
-        let split = match &self.0.kind {
-            ClassKind::Loose { rigid, pieces } => Some(SplitView {
-                rigid: rigid.into(),
-                pieces: pieces.iter().map(PieceView::new).collect(),
+        match self {
+            Self::Minor { draw, pivots } => object!(serializer, {
+                kind: "minor", prime: Big(draw.prime), seed: Big(draw.seed), draw: draw.draw,
+                rows: pivots.rows, cols: pivots.cols,
             }),
-            _ => None,
-        };
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("bodies", &self.0.members.bodies)?;
-        map.serialize_entry("edges", &self.0.members.edges)?;
-        map.serialize_entry("evidence", &List(evidence))?;
-        map.serialize_entry("split", &split)?;
-        map.end()
-    }
-}
-
-impl Serialize for View<'_, Block> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let hubs: Vec<&Hub> = self.0.hub.iter().collect();
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("bodies", &self.0.members.bodies)?;
-        map.serialize_entry("edges", &self.0.members.edges)?;
-        map.serialize_entry(
-            "hubs",
-            &hubs.iter().map(|hub| View(*hub)).collect::<Vec<_>>(),
-        )?;
-        map.end()
-    }
-}
-
-impl Serialize for View<'_, Hub> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let parts: Vec<MembersView> = self.0.parts.iter().map(MembersView::from).collect();
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("node", &self.0.node)?;
-        map.serialize_entry("parts", &parts)?;
-        map.serialize_entry("split", &self.0.split)?;
-        map.serialize_entry("groups", &self.0.groups)?;
-        map.serialize_entry("components", &self.0.components)?;
-        map.serialize_entry("less", &self.0.less)?;
-        map.end()
+            Self::IntegerMinor(minor) => {
+                let (determinant, prime) = match &minor.witness {
+                    Witness::Determinant(determinant) => (Some(Big(determinant)), None),
+                    Witness::Prime(prime) => (None, Some(Big(prime))),
+                };
+                let kernel: Vec<_> = minor.kernel.iter().map(|vector| bigs(vector)).collect();
+                object!(serializer, {
+                    kind: "integer-minor", numerator: minor.numerator,
+                    denominator: minor.denominator, seed: Big(minor.seed), draw: minor.draw,
+                    rows: minor.pivots.rows, cols: minor.pivots.cols, determinant: determinant,
+                    prime: prime, kernel: kernel,
+                })
+            }
+            Self::PlaneFlow { draw, rank } => object!(serializer, {
+                kind: "plane-flow", prime: Big(draw.prime), seed: Big(draw.seed), draw: draw.draw,
+                rows: rank.rigidity.rows, cols: rank.rigidity.cols, flows: rank.flows,
+                lambda_rows: rank.lambda.rows, lambda_cols: rank.lambda.cols,
+            }),
+            Self::PlaneMinor { draw, pivots } => object!(serializer, {
+                kind: "plane-minor", prime: Big(draw.prime), seed: Big(draw.seed),
+                draw: draw.draw, rows: pivots.rows, cols: pivots.cols,
+            }),
+            Self::Counting(Counting { blocks, bound }) => object!(serializer, {
+                kind: "counting", blocks: blocks, bound: bound,
+            }),
+            Self::Draws(Draws { seed, count, rank }) => object!(serializer, {
+                kind: "draws", seed: Big(seed), count: count, rank: rank,
+            }),
+            Self::Classes(classes) => object!(serializer, { kind: "classes", classes: classes }),
+            Self::Kernel { draw, vector } => object!(serializer, {
+                kind: "kernel", prime: Big(draw.prime), seed: Big(draw.seed), draw: draw.draw,
+                vector: bigs(vector),
+            }),
+        }
     }
 }

@@ -33,6 +33,36 @@ macro_rules! objects {
 }
 pub(super) use objects;
 
+/// Writes an object by its members, in the order in which they stand here; those behind `optional` are
+/// left out if there are none.
+macro_rules! object {
+    ($serializer:ident, {
+        $($member:ident: $value:expr),* $(,)? $(; optional $($more:ident: $extra:expr),* $(,)?)?
+    }) => {{
+        use serde::ser::SerializeMap as _;
+        let mut map = $serializer.serialize_map(None)?;
+        $(map.serialize_entry(stringify!($member), &$value)?;)*
+        $($(if let Some(more) = &$extra {
+            map.serialize_entry(stringify!($more), more)?;
+        })*)?
+        map.end()
+    }};
+}
+pub(super) use object;
+
+/// Lets types be written so.
+macro_rules! written {
+    ($($type:ty: |$own:ident| $members:tt)*) => {$(
+        impl Serialize for $type {
+            fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                let $own = self;
+                object!(serializer, $members)
+            }
+        }
+    )*};
+}
+pub(super) use written;
+
 /// A number that other readers might round, as a string.
 pub(super) struct Big<T>(pub(super) T);
 

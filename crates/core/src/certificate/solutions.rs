@@ -4,7 +4,7 @@
 //! The evidence names members by their shared nodes; the certificate numbers them: first those of
 //! the piece, then one for each merge. So the merges are done again here, on sets of nodes.
 
-use super::objects::{Big, bigs, objects};
+use super::objects::{Big, bigs, object, objects, written};
 use crate::decide::{Value, Verdict};
 use crate::geometry::model::Model;
 use crate::solutions::{
@@ -40,20 +40,15 @@ objects! {
 
     SolutionsView<'a> {
         merges: Vec<MergeView<'a>>,
-        upper: Option<UpperView<'a>>,
-        lower: Option<LowerView<'a>>,
+        upper: Option<&'a Upper>,
+        lower: Option<&'a Lower>,
         ; optional product: Vec<FactorView<'a>>
     }
 
     FactorView<'a> {
         with: Vec<usize>,
         solutions: Nested<'a>,
-        rigid: Option<PlaceView<'a>>,
-    }
-
-    PlaceView<'a> {
-        chart: ChartView<'a>,
-        centres: CentresView<'a>,
+        rigid: Option<&'a Place>,
     }
 
     MergeView<'a> {
@@ -61,89 +56,6 @@ objects! {
         with: Vec<usize>,
         at: &'a [u32],
         solutions: Option<Nested<'a>>,
-    }
-
-    ChartView<'a> {
-        chains: &'a [Vec<u32>],
-        half_edges: &'a [[u32; 3]],
-        unknowns: Vec<(usize, u32)>,
-    }
-
-    CentresView<'a> {
-        prime: Big<u64>,
-        values: Vec<Vec<Big<&'a u64>>>,
-    }
-
-    UpperView<'a> {
-        chart: ChartView<'a>,
-        centres: CentresView<'a>,
-        steps: Vec<StepView<'a>>,
-        points: Option<PointsView<'a>>,
-    }
-
-    LowerView<'a> {
-        chart: ChartView<'a>,
-        centres: CentresView<'a>,
-        points: Vec<Vec<Big<&'a u64>>>,
-        ; optional relations: Vec<Vec<RelationView<'a>>>
-    }
-
-    RelationView<'a> {
-        rows: &'a [usize],
-        hub: Option<u32>,
-    }
-
-    LinearView<'a> {
-        kind: &'static str,
-        freed: &'a [usize],
-        settled: &'a [usize],
-    }
-
-    SupportView<'a> {
-        kind: &'static str,
-        unknowns: &'a [usize],
-        bounds: &'a [usize],
-        absent: &'a [Vec<usize>],
-        minors: Vec<MinorView<'a>>,
-    }
-
-    MinorView<'a> {
-        rows: Vec<usize>,
-        plus: Vec<usize>,
-        minus: Vec<usize>,
-        cols: Vec<usize>,
-        ; optional shifts: &'a [Vec<usize>]
-    }
-
-    PointsView<'a> {
-        centres: CentresView<'a>,
-        unknowns: &'a [usize],
-        bounds: &'a [usize],
-        absent: &'a [Vec<usize>],
-        minors: Vec<MinorView<'a>>,
-        points: Vec<PointView<'a>>,
-        ; optional form: Vec<TermView<'a>>, outside: Vec<OutsideView<'a>>, spurious: Vec<SpuriousView<'a>>
-    }
-
-    SpuriousView<'a> {
-        values: Vec<Option<Big<u64>>>,
-        steps: Vec<LinearView<'a>>,
-    }
-
-    TermView<'a> {
-        exponent: &'a [usize],
-        weight: Big<&'a u64>,
-    }
-
-    OutsideView<'a> {
-        values: Vec<Option<Big<u64>>>,
-        blocks: &'a [Vec<usize>],
-        dependent: &'a [Vec<usize>],
-    }
-
-    PointView<'a> {
-        values: Vec<Big<&'a u64>>,
-        steps: Vec<LinearView<'a>>,
     }
 }
 
@@ -153,6 +65,50 @@ struct Nested<'a>(Box<SolutionsView<'a>>);
 impl Serialize for Nested<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         self.0.serialize(serializer)
+    }
+}
+
+written! {
+    Place: |own| { chart: own.chart, centres: Centres(own) }
+    Upper: |own| {
+        chart: own.place.chart, centres: Centres(&own.place), steps: own.ones,
+        points: own.points.as_ref().map(|(place, points)| Points(place, points)),
+    }
+    Lower: |own| {
+        chart: own.place.chart, centres: Centres(&own.place), points: all_bigs(&own.points);
+        optional relations: (!own.relations.is_empty()).then_some(&own.relations)
+    }
+    Centres<'_>: |own| { prime: Big(own.0.prime), values: own.values() }
+    Relation: |own| { rows: own.rows, hub: own.hub }
+    Linear: |own| { kind: "linear", freed: own.freed, settled: own.settled }
+    Spurious: |own| { values: own.values, steps: own.settled }
+    Outside: |own| { values: own.values, blocks: own.blocks, dependent: own.dependent }
+}
+
+impl Serialize for One {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Linear(linear) => linear.serialize(serializer),
+            Self::Support {
+                unknowns,
+                bounds,
+                absent,
+                minors,
+            } => object!(serializer, {
+                kind: "support", unknowns: unknowns, bounds: bounds, absent: absent,
+                minors: minors,
+            }),
+        }
+    }
+}
+
+/// `null` stands for infinity.
+impl Serialize for Limit {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match *self {
+            Self::Finite(value) => Big(value).serialize(serializer),
+            Self::Infinite => serializer.serialize_none(),
+        }
     }
 }
 
@@ -220,8 +176,8 @@ impl Live {
         let factors = factors.collect::<Result<Vec<_>, _>>()?;
         Ok(SolutionsView {
             merges,
-            upper: upper.map(UpperView::new),
-            lower: lower.map(LowerView::new),
+            upper,
+            lower,
             product: (!factors.is_empty()).then_some(factors),
         })
     }
@@ -248,10 +204,7 @@ impl Live {
         let members: Vec<Vec<u32>> = members.collect();
         let rigid = factor.rigid.as_ref().map(|place| {
             Self::new(members.clone()).see_to(&place.chart)?;
-            Ok(PlaceView {
-                chart: ChartView::new(&place.chart),
-                centres: CentresView::new(place),
-            })
+            Ok(place)
         });
         let pairs = factor.pairs.iter().map(|pair| pair.to_vec());
         let inner = Self::new(members.into_iter().chain(pairs).collect());
@@ -325,207 +278,91 @@ fn shared(mut members: Vec<Vec<u32>>) -> Vec<Vec<u32>> {
     members
 }
 
-impl<'a> ChartView<'a> {
-    fn new(chart: &'a Chart) -> Self {
-        let chains = chart.members.len() - 2 * chart.half_edges.len();
-        let of_half_edge = |member: usize| chains + (member - chains) / 2;
-        Self {
-            chains: &chart.members[..chains],
-            half_edges: &chart.half_edges,
-            unknowns: chart
-                .unknowns
-                .iter()
-                .map(|scale| match scale.member {
-                    member if member < chains => (member, scale.node),
-                    member => (of_half_edge(member), scale.node),
-                })
-                .collect(),
-        }
-    }
-}
-
-impl<'a> CentresView<'a> {
-    /// The centres of the nodes of the chart.
-    fn new(place: &'a Place) -> Self {
-        let in_chart = |node: &u32| place.chart.members.iter().flatten().any(|v| v == node);
-        let mut centres: Vec<_> = place
-            .centres
-            .iter()
-            .filter(|(node, _)| in_chart(node))
-            .collect();
-        centres.sort_unstable();
-        Self {
-            prime: Big(place.prime),
-            values: centres.into_iter().map(|(_, c)| bigs(c)).collect(),
-        }
-    }
-}
-
-impl<'a> UpperView<'a> {
-    fn new(upper: &'a Upper) -> Self {
-        Self {
-            chart: ChartView::new(&upper.place.chart),
-            centres: CentresView::new(&upper.place),
-            steps: upper.ones.iter().map(StepView::new).collect(),
-            points: upper
-                .points
-                .as_ref()
-                .map(|(place, points)| PointsView::new(place, points)),
-        }
-    }
-}
-
-impl<'a> LowerView<'a> {
-    fn new(lower: &'a Lower) -> Self {
-        Self {
-            chart: ChartView::new(&lower.place.chart),
-            centres: CentresView::new(&lower.place),
-            points: lower.points.iter().map(|point| bigs(point)).collect(),
-            relations: (!lower.relations.is_empty()).then(|| {
-                let of_point = |lists: &'a Vec<Relation>| {
-                    let views = lists.iter().map(|relation| RelationView {
-                        rows: &relation.rows,
-                        hub: relation.hub,
-                    });
-                    views.collect()
-                };
-                lower.relations.iter().map(of_point).collect()
-            }),
-        }
-    }
-}
-
-/// A step of an upper bound.
-enum StepView<'a> {
-    Linear(LinearView<'a>),
-    Support(SupportView<'a>),
-}
-
-impl Serialize for StepView<'_> {
+impl Serialize for Chart {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Self::Linear(step) => step.serialize(serializer),
-            Self::Support(step) => step.serialize(serializer),
-        }
+        let chains = self.members.len() - 2 * self.half_edges.len();
+        let unknowns = self.unknowns.iter().map(|scale| match scale.member {
+            member if member < chains => (member, scale.node),
+            member => (chains + (member - chains) / 2, scale.node),
+        });
+        object!(serializer, {
+            chains: self.members[..chains], half_edges: self.half_edges,
+            unknowns: unknowns.collect::<Vec<_>>(),
+        })
     }
 }
 
-impl<'a> StepView<'a> {
-    fn new(step: &'a One) -> Self {
-        match step {
-            One::Linear(linear) => Self::Linear(LinearView::new(linear)),
-            One::Support {
-                unknowns,
-                bounds,
-                absent,
-                minors,
-            } => Self::Support(SupportView {
-                kind: "support",
-                unknowns,
-                bounds,
-                absent,
-                minors: minors.iter().map(MinorView::new).collect(),
-            }),
-        }
+/// The centres of the nodes of a chart.
+struct Centres<'a>(&'a Place);
+
+impl Centres<'_> {
+    fn values(&self) -> Vec<Vec<Big<&u64>>> {
+        let Place { chart, centres, .. } = self.0;
+        let in_chart = |node: &u32| chart.members.iter().flatten().any(|v| v == node);
+        let mut centres: Vec<_> = centres.iter().filter(|(node, _)| in_chart(node)).collect();
+        centres.sort_unstable();
+        centres.into_iter().map(|(_, c)| bigs(c)).collect()
     }
 }
 
-impl<'a> LinearView<'a> {
-    fn new(linear: &'a Linear) -> Self {
-        Self {
-            kind: "linear",
-            freed: &linear.freed,
-            settled: &linear.settled,
-        }
-    }
+fn all_bigs(lists: &[Vec<u64>]) -> Vec<Vec<Big<&u64>>> {
+    lists.iter().map(|list| bigs(list)).collect()
 }
 
-impl<'a> MinorView<'a> {
-    /// Rows and columns in increasing order: that changes the sign only.
-    fn new(minor: &'a Minor) -> Self {
+/// Rows and columns are in increasing order: that changes the sign only.
+impl Serialize for Minor {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let [mut rows, mut plus, mut minus] = [const { Vec::new() }; 3];
-        for part in &minor.rows {
+        for part in &self.rows {
             match *part {
                 Part::Whole(row) => rows.push(row),
                 Part::Plus(row) => plus.push(row),
                 Part::Minus(row) => minus.push(row),
             }
         }
-        let mut cols = minor.columns.clone();
+        let mut cols = self.columns.clone();
         for list in [&mut rows, &mut plus, &mut minus, &mut cols] {
             list.sort_unstable();
         }
-        Self {
-            rows,
-            plus,
-            minus,
-            cols,
-            shifts: minor.shifts.as_deref(),
-        }
+        object!(serializer, {
+            rows: rows, plus: plus, minus: minus, cols: cols; optional shifts: self.shifts
+        })
     }
 }
 
-impl<'a> PointsView<'a> {
-    fn new(place: &'a Place, found: &'a AtMost) -> Self {
+/// The points of an upper bound, and where.
+struct Points<'a>(&'a Place, &'a AtMost);
+
+/// The values of its unknowns, and how others are settled there.
+struct Point<'a>(Vec<Big<u64>>, &'a [Linear]);
+
+/// A monomial and its weight.
+struct Term<'a>(&'a (Vec<usize>, u64));
+
+written! {
+    Point<'_>: |own| { values: own.0, steps: own.1 }
+    Term<'_>: |own| { exponent: own.0.0, weight: Big(own.0.1) }
+}
+
+impl Serialize for Points<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let &Self(place, found) = self;
         let points = found.points.iter().zip(&found.settled);
+        let points = points.map(|(point, settled)| {
+            let values = found.unknowns.iter().map(|&f| Big(point[f]));
+            Point(values.collect(), settled)
+        });
         // Theorem 10.8 is what holds without a form.
         let one = |(exponent, weight): &(Vec<usize>, u64)| {
             *weight == u64::from(exponent.iter().all(|&e| e == 0))
         };
         let plain = found.form.iter().all(one) && found.outside.is_empty();
-        Self {
-            centres: CentresView::new(place),
-            unknowns: &found.unknowns,
-            bounds: &found.bounds,
-            absent: &found.absent,
-            minors: found.minors.iter().map(MinorView::new).collect(),
-            points: points
-                .map(|(point, settled)| PointView {
-                    values: found.unknowns.iter().map(|&f| Big(&point[f])).collect(),
-                    steps: settled.iter().map(LinearView::new).collect(),
-                })
-                .collect(),
-            form: (!plain).then(|| found.form.iter().map(TermView::new).collect()),
-            outside: (!plain).then(|| found.outside.iter().map(OutsideView::new).collect()),
-            spurious: (!found.spurious.is_empty())
-                .then(|| found.spurious.iter().map(SpuriousView::new).collect()),
-        }
-    }
-}
-
-impl<'a> TermView<'a> {
-    fn new((exponent, weight): &'a (Vec<usize>, u64)) -> Self {
-        Self {
-            exponent,
-            weight: Big(weight),
-        }
-    }
-}
-
-/// `null` stands for infinity.
-fn limits(values: &[Limit]) -> Vec<Option<Big<u64>>> {
-    let value = |limit: &Limit| match *limit {
-        Limit::Finite(value) => Some(Big(value)),
-        Limit::Infinite => None,
-    };
-    values.iter().map(value).collect()
-}
-
-impl<'a> SpuriousView<'a> {
-    fn new(point: &'a Spurious) -> Self {
-        Self {
-            values: limits(&point.values),
-            steps: point.settled.iter().map(LinearView::new).collect(),
-        }
-    }
-}
-
-impl<'a> OutsideView<'a> {
-    fn new(point: &'a Outside) -> Self {
-        Self {
-            values: limits(&point.values),
-            blocks: &point.blocks,
-            dependent: &point.dependent,
-        }
+        object!(serializer, {
+            centres: Centres(place), unknowns: found.unknowns, bounds: found.bounds,
+            absent: found.absent, minors: found.minors, points: points.collect::<Vec<_>>();
+            optional form: (!plain).then(|| found.form.iter().map(Term).collect::<Vec<_>>()),
+            outside: (!plain).then_some(&found.outside),
+            spurious: (!found.spurious.is_empty()).then_some(&found.spurious)
+        })
     }
 }

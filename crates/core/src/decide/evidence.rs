@@ -150,8 +150,21 @@ impl Class {
 
     /// The pieces it is cut into, if it is not a component itself.
     pub fn pieces(&self) -> &[PieceVerdict] {
+        self.split().map_or(&[], |(_, pieces)| pieces)
+    }
+
+    /// What it is cut into, if it is not a component itself.
+    pub(crate) fn split(&self) -> Option<(&Members, &[PieceVerdict])> {
         match &self.kind {
-            ClassKind::Loose { pieces, .. } => pieces,
+            ClassKind::Loose { rigid, pieces } => Some((rigid, pieces)),
+            _ => None,
+        }
+    }
+
+    /// Why it is rigid by itself, if it is, and no single member.
+    pub(crate) fn evidence(&self) -> &[Evidence] {
+        match &self.kind {
+            ClassKind::Rigid(evidence) => evidence,
             _ => &[],
         }
     }

@@ -1,8 +1,8 @@
 //! The certificate of what is determined at given cameras: docs/certificate.md, section 14.
 
 use super::{
-    Big, BodyView, ClaimView, GraphView, MembersView, MergeView, PartView, Rank, SeedView, Valued,
-    bigs, objects,
+    Big, BodyView, ClaimView, GraphView, MergeView, PartView, Rank, SeedView, SplitView, Valued,
+    bigs, object, objects, written,
 };
 use crate::certificate::lines;
 use crate::contract::piece::Members;
@@ -10,8 +10,7 @@ use crate::contract::{Body, Seed};
 use crate::graph::{Graph, sha256};
 use crate::here::{Centres, Class, Here, Piece};
 use crate::linalg::integer::Integer;
-use serde::ser::SerializeMap;
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 use std::io::{self, Write};
 
 objects! {
@@ -25,36 +24,19 @@ objects! {
         centres: Vec<Vec<Big<&'a Integer>>>,
         claim: ClaimView,
         bodies: Vec<BodyView<'a>>,
-        rigid: MembersView<'a>,
-        pieces: Vec<HerePiece<'a>>,
-    }
-
-    HerePiece<'a> {
-        bodies: &'a [u32],
-        edges: &'a [(u32, u32)],
-        rank: usize,
-        primes: u64,
-        kernel: Vec<Big<&'a u64>>,
-        classes: Vec<HereClass<'a>>,
-    }
-
-    HereClass<'a> {
-        bodies: &'a [u32],
-        edges: &'a [(u32, u32)],
-        split: Option<HereSplit<'a>>,
+        rigid: &'a Members,
+        pieces: &'a [Piece],
     }
 }
 
-/// Members by themselves and pieces; written by hand, as pieces hold it again.
-struct HereSplit<'a>(&'a Members, &'a [Piece]);
-
-impl Serialize for HereSplit<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("rigid", &MembersView::from(self.0))?;
-        let pieces: Vec<HerePiece> = self.1.iter().map(HerePiece::new).collect();
-        map.serialize_entry("pieces", &pieces)?;
-        map.end()
+written! {
+    Piece: |own| {
+        bodies: own.members.bodies, edges: own.members.edges, rank: own.rank, primes: own.primes,
+        kernel: bigs(&own.kernel), classes: own.classes,
+    }
+    Class: |own| {
+        bodies: own.members.bodies, edges: own.members.edges,
+        split: own.split.as_ref().map(|(rigid, pieces)| SplitView { rigid, pieces }),
     }
 }
 
@@ -100,8 +82,8 @@ impl Here {
                 .iter()
                 .map(BodyView::of_rules)
                 .collect(),
-            rigid: (&self.rigid).into(),
-            pieces: self.pieces.iter().map(HerePiece::new).collect(),
+            rigid: &self.rigid,
+            pieces: &self.pieces,
         };
         let mut serializer =
             serde_json::Serializer::with_formatter(&mut out, lines::Outer::default());
@@ -123,32 +105,6 @@ impl<'a> BodyView<'a> {
             }),
             add: &body.add,
             merge: body.merge.iter().map(MergeView::new).collect(),
-        }
-    }
-}
-
-impl<'a> HerePiece<'a> {
-    fn new(piece: &'a Piece) -> Self {
-        Self {
-            bodies: &piece.members.bodies,
-            edges: &piece.members.edges,
-            rank: piece.rank,
-            primes: piece.primes,
-            kernel: bigs(&piece.kernel),
-            classes: piece.classes.iter().map(HereClass::new).collect(),
-        }
-    }
-}
-
-impl<'a> HereClass<'a> {
-    fn new(class: &'a Class) -> Self {
-        Self {
-            bodies: &class.members.bodies,
-            edges: &class.members.edges,
-            split: class
-                .split
-                .as_ref()
-                .map(|(rigid, pieces)| HereSplit(rigid, pieces)),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The certificate of what is determined of cameras that have classes: docs/certificate.md, section 15.
 
-use super::{Big, BodyView, GraphView, List, MergeView, PieceView, SeedView, bigs, objects};
+use super::{Big, BodyView, GraphView, MergeView, SeedView, bigs, objects};
 use crate::certificate::lines;
 use crate::decide::Verdict;
 use crate::graph::Graph;
@@ -79,11 +79,7 @@ impl Certified {
         let of_rules = verdict.contraction.bodies.iter();
         let of_rules = of_rules.filter_map(|body| BodyView::new(body, verdict));
         let by_rank = self.by_rank.iter().map(|body| BodyView {
-            seed: SeedView::Rank(PieceView {
-                bodies: &body.members.bodies,
-                edges: &body.members.edges,
-                evidence: List(&body.evidence),
-            }),
+            seed: SeedView::Rank(&body.members, &body.evidence),
             add: &[],
             merge: body.merge.iter().map(MergeView::new).collect(),
         });
