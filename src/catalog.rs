@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::time::Instant;
-use viewcert::decide::{CountSolutions, Options, Prime, Projective, Verdict, VerdictError, decide};
+use viewcert::decide::{CountSolutions, Options, Prime, Question, Verdict, VerdictError, decide};
 use viewcert::graph::{Graph, Labels};
 use viewcert::linalg::prime::{DEFAULT_PRIME, PrimeField};
 use viewcert_catalog::candidates::has_adjacent_nodes_of_degree_2;
@@ -75,7 +75,7 @@ pub(super) fn run(session: &Session, arguments: &Arguments) -> Result<u8> {
         false => CountSolutions::Off,
     };
     let options = Options::default()
-        .question(Projective::with_solutions(effort))
+        .question(Question::with_solutions(effort))
         .prime(Prime::Fixed(field))
         .seed(arguments.seed)
         .watch(session.watch());

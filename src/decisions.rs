@@ -36,7 +36,7 @@ use viewcert_session::{Outputs, Session, complain, outputs, printable};
 /// does not stop the others.
 pub(super) fn run(session: &Session, plan: &Plan) -> Result<u8> {
     let mut out = outputs::text(&plan.products.files().map(|(_, path)| path));
-    let counted = plan.draft.solutions != CountSolutions::Off;
+    let counted = plan.question.solutions != CountSolutions::Off;
     let table = match plan.form {
         Form::Table(format) => Some(Table::begin(&mut out, format, &plan.graphs, counted)),
         Form::Text | Form::Json => None,
@@ -107,7 +107,7 @@ impl Decided {
         let (input, known, besides) = match read_beside(
             plan.given.as_deref(),
             input,
-            plan.draft.model,
+            plan.question.model,
         )? {
             Beside::Known(input, known) => {
                 let (input, sensors) = intrinsics::read(plan.intrinsics.as_ref(), input)?;

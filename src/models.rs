@@ -5,7 +5,7 @@ use super::input::InputArguments;
 use anyhow::{Context, Result, ensure};
 use clap::Args;
 use std::path::PathBuf;
-use viewcert::decide::{Draft, Options, Value, Verdict, decide};
+use viewcert::decide::{Options, Question, Value, Verdict, decide};
 use viewcert::geometry::model::Model;
 use viewcert_formats::NamedGraph;
 use viewcert_report::models as report;
@@ -45,11 +45,11 @@ pub(super) fn run(session: &Session, arguments: &ModelsArguments) -> Result<u8> 
         let (input, known) = given::read(given, input)?;
         let input = &*input;
         let decided = |model: Model| -> Result<Verdict> {
-            let draft = Draft {
+            let question = Question {
                 known: known.clone(),
-                ..Draft::new(model)
+                ..model.into()
             };
-            let question = draft.question().context(given::OPTION)?;
+            let question = question.checked().context(given::OPTION)?;
             let options = Options::default().question(question).seed(arguments.seed);
             let verdict =
                 session.watched(|watch| decide(&input.graph, &options.watch(watch.clone())));

@@ -13,7 +13,7 @@ use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use viewcert::Known;
-use viewcert::decide::{Calibrated, Options, decide};
+use viewcert::decide::{Options, Question, decide};
 use viewcert::geometry::model::Model;
 use viewcert_advice::export::shell;
 use viewcert_advice::{Advice, Request, Shapes, Tracks, foreseen};
@@ -235,7 +235,7 @@ fn overview(
     let decided = |input: &NamedGraph, model: Model| {
         let known = with_rigs(Known::default(), input)?;
         let options = match model {
-            Model::Calibrated => Options::default().question(Calibrated::with(known)),
+            Model::Calibrated => Options::default().question(Question::calibrated(known)),
             _ => Options::default().model(model),
         };
         let verdict = decide(&input.graph, &options.watch(session.shown_watch()));

@@ -2,7 +2,7 @@
 //!
 //! In: the arguments of `verify GRAPH` and of the commands that do something about an answer. Out: a
 //! [`Plan`], or by name what does not go together. All rules stand here and in the library's
-//! [`Draft`]; what carries a plan out never looks back at options.
+//! [`Question`]; what carries a plan out never looks back at options.
 
 use super::certificates::Target;
 use super::given;
@@ -10,7 +10,7 @@ use anyhow::{Context, Result, bail, ensure};
 use std::path::{Path, PathBuf};
 use viewcert::Known;
 use viewcert::decide::Meaningless;
-use viewcert::decide::{Arithmetic, Draft, Options, Prime};
+use viewcert::decide::{Arithmetic, Options, Prime, Question};
 use viewcert::geometry::model::Model;
 use viewcert_advice::Request;
 use viewcert_formats::ReadOptions;
@@ -29,7 +29,7 @@ pub(super) struct Plan {
     /// Where classes of cameras are from, if that is asked.
     pub(super) intrinsics: Option<IntrinsicsFrom>,
     /// The question, without what is given.
-    pub(super) draft: Draft,
+    pub(super) question: Question,
     /// The prime.
     pub(super) prime: Prime,
     /// The seed of all draws.
@@ -123,7 +123,7 @@ impl Plan {
             read,
             given: None,
             intrinsics: None,
-            draft: Draft::new(model),
+            question: model.into(),
             prime: Prime::Auto,
             seed,
             asked: Asked::default(),
@@ -155,7 +155,7 @@ impl Plan {
     }
 
     fn check_question(&self) -> Result<()> {
-        let (model, of_tracks) = (self.draft.model, self.read.tracks.is_some());
+        let (model, of_tracks) = (self.question.model, self.read.tracks.is_some());
         ensure!(
             !of_tracks || model == Model::Calibrated,
             "--tracks: observations are directions of known rotations, which only the calibrated \
@@ -170,9 +170,9 @@ impl Plan {
             matches!(self.prime, Prime::Auto) || model != Model::Affine,
             "--prime: the affine model is decided by counting alone; leave out one of the two"
         );
-        self.draft.clone().question()?;
+        self.question.clone().checked()?;
         ensure!(
-            !self.draft.whole_graph || self.given.is_none(),
+            !self.question.whole_graph || self.given.is_none(),
             Meaningless::KnownOverWholeGraph
         );
         Ok(())
@@ -184,7 +184,7 @@ impl Plan {
             return Ok(());
         }
         ensure!(
-            self.draft.model == Model::Projective,
+            self.question.model == Model::Projective,
             "{INTRINSICS}: says what is known of each camera, and --model says it of all; leave out one of \
              the two"
         );
@@ -199,7 +199,7 @@ impl Plan {
             "{INTRINSICS}: nothing is proved about classes of cameras in a plane; leave out one of the two"
         );
         ensure!(
-            !self.draft.whole_graph,
+            !self.question.whole_graph,
             "{INTRINSICS}: is decided between bodies; leave out --method matrix"
         );
         if let Some(option) = self.request.asked_without_classes() {
@@ -287,11 +287,11 @@ impl Plan {
                  two"
             );
         }
-        let draft = Draft {
+        let question = Question {
             known,
-            ..self.draft.clone()
+            ..self.question.clone()
         };
-        let question = draft.question().context(given::OPTION)?;
+        let question = question.checked().context(given::OPTION)?;
         Ok(Options::default()
             .question(question)
             .prime(self.prime)
@@ -300,6 +300,6 @@ impl Plan {
 
     /// Whether cameras are rational.
     pub(super) fn is_rational(&self) -> bool {
-        self.draft.arithmetic != Arithmetic::Prime
+        self.question.arithmetic != Arithmetic::Prime
     }
 }

@@ -5,7 +5,7 @@ use clap::Args;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 use viewcert::Known;
-use viewcert::decide::{Calibrated, Options, decide};
+use viewcert::decide::{Options, Question, decide};
 use viewcert_advice::{Advice, named_joints, split};
 use viewcert_formats::{Model, ReadOptions, TrackOptions, read_graphs, with_rigs};
 use viewcert_report::Report;
@@ -62,7 +62,7 @@ pub(super) fn run(session: &Session, arguments: &SplitArguments) -> Result<u8> {
     let input = input.with_context(|| format!("{}: no graph", path.display()))??;
     let model = Model::read(path)?;
     session.hide();
-    let question = Calibrated::with(with_rigs(Known::default(), &input)?);
+    let question = Question::calibrated(with_rigs(Known::default(), &input)?);
     let options = Options::default().question(question);
     let verdict = decide(&input.graph, &options.watch(session.shown_watch()));
     session.hide();

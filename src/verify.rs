@@ -124,19 +124,19 @@ impl VerifyArguments {
         let mut plan = self.question.plan(&self.graphs)?;
         plan.given = self.given.path().map(Into::into);
         plan.intrinsics = self.intrinsics.from();
-        plan.draft.whole_graph = matches!(self.method, MethodName::Matrix);
-        plan.draft.counting = !matches!(self.method, MethodName::Ranks);
+        plan.question.whole_graph = matches!(self.method, MethodName::Matrix);
+        plan.question.counting = !matches!(self.method, MethodName::Ranks);
         if let Some(Bounds {
             numerator,
             denominator,
         }) = self.rational
         {
-            plan.draft.arithmetic = Arithmetic::Rational {
+            plan.question.arithmetic = Arithmetic::Rational {
                 numerator,
                 denominator,
             };
         }
-        plan.draft.solutions = match self.solutions {
+        plan.question.solutions = match self.solutions {
             // A table counts what it shows.
             None if self.table.is_some() => CountSolutions::Off,
             None | Some(Solutions::Quick) => CountSolutions::Quick,

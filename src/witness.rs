@@ -43,7 +43,7 @@ impl WitnessArguments {
         let graphs = std::slice::from_ref(&self.graph);
         let mut plan = Plan::new(graphs, self.input.of_pairs()?, Model::Projective, self.seed);
         if self.full {
-            plan.draft.solutions = CountSolutions::Full;
+            plan.question.solutions = CountSolutions::Full;
         }
         if self.json {
             plan.form = Form::Json;

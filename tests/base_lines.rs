@@ -10,7 +10,7 @@ use viewcert::certificate::hex;
 use viewcert::decide::{RigFrames, SharedBaseLines};
 use viewcert::graph::{Displacements, Graph, KnownParts};
 use viewcert::watch::Watch;
-use viewcert::{Calibrated, Known, Options, decide};
+use viewcert::{Known, Options, Question, decide};
 use viewcert_check::Verified;
 
 /// What is certified.
@@ -76,7 +76,7 @@ fn certified(seed: u64) -> Option<Certified> {
     } else {
         Known::Displacements(groups)
     };
-    let options = Options::default().question(Calibrated::with(given));
+    let options = Options::default().question(Question::calibrated(given));
     let verdict = decide(&graph, &options).unwrap();
     let frames = RigFrames::new(frames, known).unwrap();
     let found =

@@ -4,7 +4,7 @@
 use crate::common::{TABLE_1, geng};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use viewcert::decide::{Arithmetic, Method, Options, Projective, Verdict, decide};
+use viewcert::decide::{Arithmetic, Options, Question, Verdict, decide};
 use viewcert::geometry::draw::DrawKey;
 use viewcert::geometry::jacobian;
 use viewcert::geometry::model::Model;
@@ -86,13 +86,13 @@ fn components(graph: &Graph, verdict: &Verdict) -> Vec<Vec<(u32, u32)>> {
 #[test]
 fn pipeline_against_the_paper() {
     let field = PrimeField::mersenne61();
-    let whole = Options::default().question(Projective {
-        method: Method::WholeGraph,
-        ..Projective::default()
+    let whole = Options::default().question(Question {
+        whole_graph: true,
+        ..Question::default()
     });
-    let bounds = Options::default().question(Projective {
+    let bounds = Options::default().question(Question {
         counting: false,
-        ..Projective::default()
+        ..Question::default()
     });
     for graph in around_the_threshold(cases(2000), 14) {
         let name = graph6::encode(&graph);
@@ -116,12 +116,12 @@ fn pipeline_against_the_paper() {
 
 #[test]
 fn rational_against_prime() {
-    let rational = Options::default().question(Projective {
+    let rational = Options::default().question(Question {
         arithmetic: Arithmetic::Rational {
             numerator: 9,
             denominator: 4,
         },
-        ..Projective::default()
+        ..Question::default()
     });
     for graph in around_the_threshold(cases(120), 9) {
         let name = graph6::encode(&graph);

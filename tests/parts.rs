@@ -7,7 +7,7 @@ use proptest::test_runner::{Config, TestRunner};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::PathBuf;
-use viewcert::decide::{Calibrated, Method, Options, Projective, Question, Verdict, decide};
+use viewcert::decide::{Options, Question, Verdict, decide};
 use viewcert::{Graph, KnownParts, Model};
 
 /// A folder with a graph and known parts.
@@ -101,15 +101,9 @@ fn parts_against_cliques() {
         for model in Model::ALL {
             let known = Question::with_parts(model, parts.clone());
             let found = decide(&graph, &Options::default().question(known)).unwrap();
-            let whole = match model {
-                Model::Projective => Question::Projective(Projective {
-                    method: Method::WholeGraph,
-                    ..Projective::default()
-                }),
-                Model::Calibrated => Question::Calibrated(Calibrated {
-                    method: Method::WholeGraph,
-                }),
-                Model::Affine => model.into(),
+            let whole = Question {
+                whole_graph: model != Model::Affine,
+                ..model.into()
             };
             let expected = decide(&cliques, &Options::default().question(whole)).unwrap();
             let (value, rank, components) = answer(&found);

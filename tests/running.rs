@@ -9,7 +9,7 @@ use std::process::{Child, Command, Stdio};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 use viewcert::decide;
-use viewcert::decide::{Arithmetic, Options, Projective, VerdictError};
+use viewcert::decide::{Arithmetic, Options, Question, VerdictError};
 use viewcert::graph::Graph;
 use viewcert::watch::{Limits, Observer, Reason, Stage, Step, Watch};
 use viewcert_formats::{ReadOptions, read_graphs};
@@ -299,12 +299,12 @@ fn graph(path: &str) -> Graph {
 
 /// Graphs and options that together take every step but an error bound.
 fn every_step(folder: &Path) -> Vec<(Graph, Options)> {
-    let rational = Projective {
+    let rational = Question {
         arithmetic: Arithmetic::Rational {
             numerator: 9,
             denominator: 4,
         },
-        ..Projective::default()
+        ..Question::default()
     };
     let cycle: String = crate::common::cycle(12);
     let path = folder.join("cycle.txt");

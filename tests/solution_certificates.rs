@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use viewcert::graph::{Graph, graph6};
 use viewcert::solutions::{Effort, count};
 use viewcert::watch::Watch;
-use viewcert::{CountSolutions, Options, Projective, Value, decide};
+use viewcert::{CountSolutions, Options, Question, Value, decide};
 use viewcert_catalog::candidates::has_adjacent_nodes_of_degree_2;
 use viewcert_catalog::{candidates, least_edges};
 
@@ -138,7 +138,7 @@ fn glue(pairs: &mut Vec<(u32, u32)>, nodes: &mut u32, own: (u32, u32), to: (u32,
 
 /// The number that is counted, proved by the checker.
 fn counted(graph: &Graph, solutions: CountSolutions) -> String {
-    let question = Projective::with_solutions(solutions);
+    let question = Question::with_solutions(solutions);
     let verdict = decide(graph, &Options::default().question(question)).unwrap();
     assert_eq!(verdict.value, Value::FiniteSolvable);
     let counted = verdict
@@ -208,7 +208,7 @@ fn components_of_a_graph_that_falls_apart() {
     let triangle = [(20, 21), (21, 22), (20, 22)];
     let graph = Graph::from_edges(core().into_iter().chain(other).chain(triangle)).unwrap();
     let of = |solutions| {
-        let question = Projective::with_solutions(solutions);
+        let question = Question::with_solutions(solutions);
         let verdict = decide(&graph, &Options::default().question(question)).unwrap();
         assert_eq!(verdict.value, Value::NotFiniteSolvable);
         let components = verdict.components.iter();
@@ -227,7 +227,7 @@ fn what_a_full_count_may_tell() {
     let counts = |graph6: &[u8]| {
         let graph = graph6::decode(graph6).unwrap();
         [CountSolutions::Quick, CountSolutions::Full].map(|solutions| {
-            let question = Projective::with_solutions(solutions);
+            let question = Question::with_solutions(solutions);
             let verdict = decide(&graph, &Options::default().question(question)).unwrap();
             verdict.solutions.unwrap()
         })

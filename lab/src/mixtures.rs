@@ -5,9 +5,7 @@
 //! to its symmetries, each decided, and the least ones that are metric.
 
 use std::collections::{BTreeMap, BTreeSet};
-use viewcert::decide::{
-    CountSolutions, Options, Projective, Question, Verdict, VerdictError, decide,
-};
+use viewcert::decide::{CountSolutions, Options, Question, Verdict, VerdictError, decide};
 use viewcert::graph::{Graph, graph6};
 use viewcert::intrinsics::{Certified, Class, Metric, Sensors};
 
@@ -177,7 +175,7 @@ impl<'a> Asked<'a> {
     /// # Errors
     /// Those of a decision.
     pub fn new(graph: &'a Graph, options: &Options) -> Result<Self, VerdictError> {
-        let question = Question::from(Projective::with_solutions(CountSolutions::Off));
+        let question = Question::with_solutions(CountSolutions::Off);
         Ok(Self {
             verdict: decide(graph, &options.clone().question(question))?,
             symmetries: symmetries(graph),

@@ -6,7 +6,7 @@
 
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use viewcert::decide::{CountSolutions, Options, Projective, VerdictError, decide};
+use viewcert::decide::{CountSolutions, Options, Question, VerdictError, decide};
 use viewcert::graph::{Graph, graph6};
 use viewcert::solutions::Number;
 use viewcert_lab_catalog::{Candidates, SizeError, laman, least_edges};
@@ -102,7 +102,7 @@ pub fn tally(
     options: &Options,
     done: impl Fn(u64) + Sync,
 ) -> Result<Tally, VerdictError> {
-    let question = Projective::with_solutions(CountSolutions::Full);
+    let question = Question::with_solutions(CountSolutions::Full);
     let options = options.clone().question(question);
     let found: Vec<Option<Bounds>> = graphs
         .par_iter()

@@ -7,7 +7,7 @@
 
 use rand::{Rng, RngExt};
 use std::ops::RangeInclusive;
-use viewcert::decide::{CountSolutions, Options, Projective, Value, VerdictError, decide};
+use viewcert::decide::{CountSolutions, Options, Question, Value, VerdictError, decide};
 use viewcert::graph::Graph;
 
 /// A number of nodes from a range, all equally likely.
@@ -41,7 +41,7 @@ pub fn piece(
 
 /// Whether a graph is finite solvable is all that is asked.
 fn finite(options: &Options) -> Options {
-    let question = Projective::with_solutions(CountSolutions::Off);
+    let question = Question::with_solutions(CountSolutions::Off);
     options.clone().question(question)
 }
 

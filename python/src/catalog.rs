@@ -11,7 +11,7 @@ use std::time::Duration;
 use viewcert::graph::graph6;
 use viewcert::linalg::prime::{DEFAULT_PRIME, PrimeField};
 use viewcert::watch::Watch;
-use viewcert::{CountSolutions, Graph, Options, Prime, Projective, VerdictError};
+use viewcert::{CountSolutions, Graph, Options, Prime, Question, VerdictError};
 use viewcert_catalog::candidates::has_adjacent_nodes_of_degree_2;
 use viewcert_catalog::label::{Label, greatest};
 use viewcert_catalog::mine::{COLUMNS, Entry};
@@ -66,7 +66,7 @@ impl Candidates {
         let field = PrimeField::new(prime);
         let field = field.map_err(|why| InputError::new_err(format!("prime={prime}: {why}")))?;
         let options = Options::default()
-            .question(Projective::with_solutions(effort))
+            .question(Question::with_solutions(effort))
             .prime(Prime::Fixed(field))
             .seed(seed)
             .watch(watch.clone());

@@ -9,7 +9,7 @@ use pyo3::types::PyBytes;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-use viewcert::decide::Draft;
+use viewcert::decide::Question;
 use viewcert::graph::{Coordinate, Displacements};
 use viewcert::intrinsics::{Certified, Class, Metric, Sensors};
 use viewcert::linalg::prime::PrimeField;
@@ -202,7 +202,7 @@ impl Wanted {
                 denominator,
             },
         };
-        let draft = Draft {
+        let question = Question {
             model,
             whole_graph: !self.contraction,
             arithmetic,
@@ -210,7 +210,7 @@ impl Wanted {
             solutions,
             known,
         };
-        let question = draft.question().map_err(|error| error.to_string())?;
+        let question = question.checked().map_err(|error| error.to_string())?;
         Ok(Options::default()
             .question(question)
             .prime(prime)

@@ -4,9 +4,9 @@ use crate::frames::Images;
 use crate::mapper::{Features, Foreseen, Geometry, Taken, foresee};
 use crate::special::{Narrow, narrow};
 use anyhow::{Context, Result};
-use viewcert::Verdict;
-use viewcert::decide::{Calibrated, Options, decide};
+use viewcert::decide::{Options, decide};
 use viewcert::watch::Watch;
+use viewcert::{Model, Verdict};
 use viewcert_formats::colmap::{Database, Estimate, Pipeline, Views, estimate};
 use viewcert_formats::{NamedGraph, TrackOptions};
 
@@ -83,7 +83,7 @@ fn taken(database: &Database, pairs: &NamedGraph, tracks: Tracks, watch: Watch) 
     let parts = match &own {
         None => tracks.parts(pairs),
         Some(own) => {
-            let options = Options::default().question(Calibrated::default());
+            let options = Options::default().model(Model::Calibrated);
             let verdict = decide(&own.graph, &options.watch(watch))?;
             parts(pairs, &verdict, |image| image)
         }

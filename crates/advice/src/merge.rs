@@ -23,7 +23,7 @@ use anyhow::{Context, Error, Result, ensure};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::Path;
-use viewcert::decide::{Calibrated, Known, Options, Question, decide};
+use viewcert::decide::{Known, Options, Question, decide};
 use viewcert::geometry::model::Model as Geometry;
 use viewcert::graph::UnionFind;
 use viewcert::watch::Watch;
@@ -419,7 +419,7 @@ pub fn of_tracks(
         }
         lines => {
             input.graph = with(&input.graph, parts.iter().flat_map(|part| chain(part)));
-            Calibrated::with(lines).into()
+            Question::calibrated(lines)
         }
     };
     let input = &*input;

@@ -134,7 +134,7 @@ pub(crate) fn pairs_of(
     graph: &Graph,
     options: &Options,
 ) -> Result<Vec<(Pair, Why, Strength)>, VerdictError> {
-    let model = options.question.model();
+    let model = options.question.model;
     let neighbours = Adjacency::new(graph);
     let mut weak: Vec<(Pair, Why, Strength)> = Vec::new();
     for &(i, j) in graph.edges() {
@@ -246,7 +246,7 @@ fn decided(
         return Ok(Vec::new());
     }
     let contraction = loop {
-        let contraction = Contraction::new(&without(graph, &candidates), options.question.model());
+        let contraction = Contraction::new(&without(graph, &candidates), options.question.model);
         let bodies = bodies_of_nodes(&contraction, graph.nodes());
         let pairs = candidates.iter().copied();
         let rest: Vec<Pair> = pairs.filter(|&pair| !is_in_one(&bodies, pair)).collect();
@@ -267,7 +267,7 @@ pub(crate) fn images_of(
     graph: &Graph,
     options: &Options,
 ) -> Result<Vec<(u32, Why, Strength)>, VerdictError> {
-    let model = options.question.model();
+    let model = options.question.model;
     let n = graph.nodes() as u32;
     // Without an image of a triangle there is a pair, which is solvable.
     if n < 4 {

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use viewcert::Model;
 use viewcert::certificate::hex;
 use viewcert::decide::{
-    CountSolutions, Options, Projective, Value, Verdict, VerdictError, decide, plane_rank,
+    CountSolutions, Options, Question, Value, Verdict, VerdictError, decide, plane_rank,
 };
 use viewcert::graph::{Graph, UnionFind, graph6};
 use viewcert::solutions::Number;
@@ -410,7 +410,7 @@ pub fn ruled(
         return Ok((Ruling::NotDecidable(why), verdict));
     }
     if claim.value(&verdict).is_none() || claim.number(&verdict).is_none() {
-        let all = Projective::with_solutions(CountSolutions::Full);
+        let all = Question::with_solutions(CountSolutions::Full);
         verdict = decide(&input.graph, &options.question(all))?;
     }
     let in_a_plane = claim

@@ -201,7 +201,7 @@ impl Summary {
 mod tests {
     use super::*;
     use crate::{candidates, least_edges};
-    use viewcert::decide::{CountSolutions, Projective};
+    use viewcert::decide::{CountSolutions, Question};
 
     fn entries(nodes: usize) -> Vec<Entry> {
         let watch = viewcert::watch::Watch::default();
@@ -236,7 +236,7 @@ mod tests {
         let found = |effort| {
             let graphs = ["Cl", "C~", "G@TclO", "HBQkcP_"];
             let graphs = graphs.map(|graph| graph6::decode(graph.as_bytes()).unwrap());
-            let options = Options::default().question(Projective::with_solutions(effort));
+            let options = Options::default().question(Question::with_solutions(effort));
             let entries = decide_all(&graphs, &options).unwrap();
             let mut summary = Summary::default();
             entries.iter().for_each(|entry| summary.count(entry));

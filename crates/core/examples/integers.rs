@@ -2,7 +2,7 @@
 //! verdicts and certificates: the same bytes whichever integers are built in.
 //! `cargo run -p viewcert --example integers`, once more with `--features gmp`, and compare.
 
-use viewcert::{Arithmetic, LabelledGraph, Method, Options, Projective, decide};
+use viewcert::{Arithmetic, LabelledGraph, Options, Question, decide};
 
 const FILES: [&str; 3] = [
     include_str!("../../../examples/house.txt"),
@@ -19,11 +19,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let lines = file.lines().filter(|line| !line.starts_with('#'));
         let pairs = lines.filter_map(|line| line.trim().split_once(' '));
         let images = LabelledGraph::from_pairs(pairs.map(|(a, b)| (a.trim(), b.trim())))?;
-        for method in [Method::default(), Method::WholeGraph] {
-            let asked = Projective {
-                method,
+        for whole_graph in [false, true] {
+            let asked = Question {
+                whole_graph,
                 arithmetic,
-                ..Projective::default()
+                ..Question::default()
             };
             let verdict = decide(images.graph(), &Options::default().question(asked))?;
             println!("{}: rank {}", verdict.value, verdict.rank);

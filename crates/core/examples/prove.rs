@@ -7,7 +7,7 @@
 use std::fmt::Write as _;
 use std::io::BufRead;
 use std::path::PathBuf;
-use viewcert::decide::{CountSolutions, Projective, Question};
+use viewcert::decide::{CountSolutions, Question};
 use viewcert::graph::graph6;
 use viewcert::{Model, Options, decide};
 
@@ -17,7 +17,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let model = std::env::args().nth(2);
     let model: Model = model.map_or(Ok(Model::Projective), |word| word.parse())?;
     let question: Question = match model {
-        Model::Projective => Projective::with_solutions(CountSolutions::Off).into(),
+        Model::Projective => Question::with_solutions(CountSolutions::Off).into(),
         model => model.into(),
     };
     let options = Options::default().question(question);

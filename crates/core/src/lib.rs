@@ -55,9 +55,8 @@ pub mod wording;
 
 pub use certificate::Certificate;
 pub use decide::{
-    Arithmetic, Calibrated, Claim, Component, CountSolutions, Known, Method, Options, Prime,
-    Projective, ProjectiveBodies, Question, SolutionCount, Strength, Value, Verdict, VerdictError,
-    decide,
+    Arithmetic, Claim, Component, CountSolutions, Known, Meaningless, Options, Prime, Question,
+    SolutionCount, Strength, Value, Verdict, VerdictError, decide,
 };
 pub use geometry::model::Model;
 pub use graph::{Graph, GraphError, KnownParts, LabelledGraph, Labels, PairedWithItself};

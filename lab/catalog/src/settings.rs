@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result};
 use std::path::PathBuf;
-use viewcert::decide::{CountSolutions, Options, Prime, Projective};
+use viewcert::decide::{CountSolutions, Options, Prime, Question};
 use viewcert::linalg::prime::{DEFAULT_PRIME, PrimeField};
 use viewcert::watch::Watch;
 
@@ -40,7 +40,7 @@ impl Settings {
         } else {
             CountSolutions::Off
         };
-        let options = Options::default().question(Projective::with_solutions(solutions));
+        let options = Options::default().question(Question::with_solutions(solutions));
         let options = options.prime(Prime::Fixed(field)).seed(self.seed);
         Ok(options.watch(watch))
     }

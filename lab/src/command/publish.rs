@@ -16,7 +16,7 @@ use std::io::Write;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use viewcert::decide::{
-    CountSolutions, Options, Prime, Projective, Value, Verdict, VerdictError, decide,
+    CountSolutions, Options, Prime, Question, Value, Verdict, VerdictError, decide,
 };
 use viewcert::graph::{Graph, graph6};
 use viewcert::linalg::prime::PrimeField;
@@ -171,7 +171,7 @@ impl Files<'_> {
 
 fn options(solutions: CountSolutions, watch: Watch) -> Options {
     Options::default()
-        .question(Projective::with_solutions(solutions))
+        .question(Question::with_solutions(solutions))
         .watch(watch)
 }
 

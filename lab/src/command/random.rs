@@ -5,7 +5,7 @@ use anyhow::{Context, Result, anyhow};
 use clap::Args;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use viewcert::decide::{CountSolutions, Options, Projective, Strength, Value};
+use viewcert::decide::{CountSolutions, Options, Question, Strength, Value};
 use viewcert_catalog::mine;
 use viewcert_catalog::mine::Entry;
 use viewcert_formats::csv;
@@ -77,7 +77,7 @@ pub fn run(session: &Session, arguments: &Arguments) -> Result<u8> {
         None => Vec::new(),
     };
     let options = Options::default()
-        .question(Projective::with_solutions(CountSolutions::Off))
+        .question(Question::with_solutions(CountSolutions::Off))
         .seed(arguments.seed)
         .watch(session.watch());
     let mut columns = Vec::new();

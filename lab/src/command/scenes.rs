@@ -7,7 +7,7 @@ use clap::Args;
 use serde::Serialize;
 use std::io::Write;
 use std::path::PathBuf;
-use viewcert::decide::{CountSolutions, Options, Projective, decide};
+use viewcert::decide::{CountSolutions, Options, Question, decide};
 use viewcert::graph::graph6;
 use viewcert::linalg::integer::Integer;
 use viewcert_formats::{ReadOptions, read_graphs};
@@ -70,7 +70,7 @@ impl<'a> Second<'a> {
 
 /// Writes a JSON object for each graph.
 pub fn run(session: &Session, arguments: &Arguments) -> Result<u8> {
-    let question = Projective::with_solutions(CountSolutions::Full);
+    let question = Question::with_solutions(CountSolutions::Full);
     let options = Options::default().seed(arguments.seed).question(question);
     let options = options.watch(session.watch());
     let mut out = outputs::text(&[]);

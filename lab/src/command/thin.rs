@@ -11,7 +11,7 @@ use std::io::Write;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::time::Instant;
-use viewcert::decide::{CountSolutions, Options, Projective, VerdictError, decide};
+use viewcert::decide::{CountSolutions, Options, Question, VerdictError, decide};
 use viewcert::graph::graph6;
 use viewcert::solutions::Number;
 use viewcert_formats::csv;
@@ -101,7 +101,7 @@ fn of_graph(
 ) -> Result<Vec<Row>, VerdictError> {
     let options = Options::default()
         .seed(arguments.seed)
-        .question(Projective::with_solutions(CountSolutions::Full))
+        .question(Question::with_solutions(CountSolutions::Full))
         .watch(session.watch());
     let progress = session.progress("pieces", Some(u64::from(arguments.pieces)));
     let rows: Vec<Option<Row>> = (0..arguments.pieces)

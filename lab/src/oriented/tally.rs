@@ -7,7 +7,7 @@
 use super::{Search, Standing};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use viewcert::decide::{CountSolutions, Options, Projective, VerdictError, decide};
+use viewcert::decide::{CountSolutions, Options, Question, VerdictError, decide};
 use viewcert::graph::{Graph, graph6};
 use viewcert::solutions::Number;
 
@@ -92,7 +92,7 @@ pub fn tally(
     (places, seed): (usize, u64),
     done: impl Fn(u64) + Sync,
 ) -> Result<BTreeMap<Number, Tally>, VerdictError> {
-    let question = Projective::with_solutions(CountSolutions::Full);
+    let question = Question::with_solutions(CountSolutions::Full);
     let options = options.clone().question(question);
     let of_graph = |graph: &Graph| -> Result<Option<Found>, VerdictError> {
         let solutions = decide(graph, &options)?.solutions;

@@ -137,7 +137,7 @@ fn condensed(
     let mut gone: Vec<Pair> = open.iter().map(|pair| pair.here).collect();
     gone.sort_unstable();
     let rest = without(graph, &gone);
-    let contraction = Contraction::new(&rest, options.question.model());
+    let contraction = Contraction::new(&rest, options.question.model);
     let of_nodes = bodies_of_nodes(&contraction, graph.nodes());
     open.retain(|pair| !is_in_one(&of_nodes, pair.here));
     let bodies: Vec<&[u32]> = final_nodes(&contraction).collect();

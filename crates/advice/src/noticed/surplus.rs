@@ -136,7 +136,7 @@ fn named(alone: &Alone, found: Vec<Surplus>) -> Vec<Surplus> {
 /// The pairs of a graph without full surplus. What no merge of a contraction uses has full surplus,
 /// as has a pair of a node with three pairs to a body that stands without the node.
 fn of_region(graph: &Graph, base: Base, options: &Options) -> Result<Vec<Surplus>, VerdictError> {
-    let model = options.question.model();
+    let model = options.question.model;
     let contraction = Contraction::new(graph, model);
     let is_loose = |pair: &Pair| contraction.loose.binary_search(pair).is_ok();
     let (loose, in_bodies): (Vec<Pair>, Vec<Pair>) =

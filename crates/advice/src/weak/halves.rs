@@ -99,13 +99,13 @@ fn sort_named<T: Item>(
     check(graph, options)?;
     let here: Vec<T> = items.iter().map(|item| item.here).collect();
     let gone = T::pairs(graph, &here);
-    let contraction = Contraction::new(&without(graph, &gone), options.question.model());
+    let contraction = Contraction::new(&without(graph, &gone), options.question.model);
     let rest = T::not_held(graph, &contraction, items);
     match (&here[..], &rest[..]) {
         (_, []) => {}
         ([_], [item]) => {
-            let bound = bound(&contraction, options.question.model());
-            let falls = bound < options.question.model().required(T::nodes_left(graph, 1));
+            let bound = bound(&contraction, options.question.model);
+            let falls = bound < options.question.model.required(T::nodes_left(graph, 1));
             let list = if falls {
                 &mut sorted.falls
             } else {

@@ -78,7 +78,7 @@ fn not_cleared_without(
     let edges = graph.edges().iter().copied();
     let edges = edges.filter(|&(a, b)| !is_out[a as usize] && !is_out[b as usize]);
     let rest = Graph::new(graph.nodes() as u32, edges).expect("edges of a graph");
-    let contraction = Contraction::new(&rest, options.question.model());
+    let contraction = Contraction::new(&rest, options.question.model);
     let bodies = bodies_of_nodes(&contraction, graph.nodes());
     // For every node left out the body that it has most pairs with, if these are enough.
     let mut anchor = vec![NONE; graph.nodes()];

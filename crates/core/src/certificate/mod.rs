@@ -95,10 +95,10 @@ impl<'a> Certificate<'a> {
     /// ```
     /// use viewcert::graph::graph6;
     /// use viewcert::solutions::{Effort, count};
-    /// use viewcert::{CountSolutions, Options, Projective, decide};
+    /// use viewcert::{CountSolutions, Options, Question, decide};
     ///
     /// let graph = graph6::decode(b"HBQkcP_").unwrap();
-    /// let finite = Projective::with_solutions(CountSolutions::Off);
+    /// let finite = Question::with_solutions(CountSolutions::Off);
     /// let verdict = decide(&graph, &Options::default().question(finite))?;
     /// let solutions = count(&graph, Effort::default(), 1).unwrap();
     /// let certificate = verdict.certificate(&graph).with_solutions(&solutions)?.compact();
@@ -123,11 +123,11 @@ impl<'a> Certificate<'a> {
     /// ```
     /// use viewcert::decide::{RigFrames, SharedBaseLines};
     /// use viewcert::watch::Watch;
-    /// use viewcert::{Calibrated, Graph, Options, decide};
+    /// use viewcert::{Graph, Model, Options, decide};
     ///
     /// // Two frames of a rig whose second sensor is at an unknown place.
     /// let graph = Graph::new(4, [(0, 2), (1, 3)])?;
-    /// let options = Options::default().question(Calibrated::default());
+    /// let options = Options::default().model(Model::Calibrated);
     /// let verdict = decide(&graph, &options)?;
     /// let frames = [vec![(0, 0), (1, 1)], vec![(2, 0), (3, 1)]];
     /// let frames = RigFrames::new(frames, vec![true, false])?;

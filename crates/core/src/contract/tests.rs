@@ -1,7 +1,7 @@
 //! Contraction, replayed step by step and compared with the rules applied naively.
 
 use super::*;
-use crate::decide::{Method, Options, Projective, decide};
+use crate::decide::{Options, Question, decide};
 use crate::geometry::draw::{DrawKey, centres_mod, points_mod};
 use crate::geometry::plane_direction::PlaneDirections;
 use crate::geometry::plane_flow::PlaneFlows;
@@ -316,9 +316,9 @@ fn alone(nodes: &Nodes, edges: &[(u32, u32)]) -> Graph {
 
 /// The generic rank of J_P, without contraction.
 fn paper_rank(nodes: &Nodes, edges: &[(u32, u32)]) -> usize {
-    let whole = Projective {
-        method: Method::WholeGraph,
-        ..Projective::default()
+    let whole = Question {
+        whole_graph: true,
+        ..Question::default()
     };
     let options = Options::default().question(whole);
     decide(&alone(nodes, edges), &options).unwrap().rank

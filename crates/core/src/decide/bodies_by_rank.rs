@@ -14,8 +14,9 @@ use crate::decide::drawn::Centres;
 use crate::decide::error::VerdictError;
 use crate::decide::evidence::Evidence;
 use crate::decide::options::Options;
-use crate::decide::question::{Arithmetic, CountSolutions, Method, Projective, Question};
+use crate::decide::question::{Arithmetic, CountSolutions};
 use crate::decide::walk::Piece;
+use crate::geometry::model::Model;
 use crate::graph::{Adjacency, Graph};
 use rayon::prelude::*;
 use std::collections::VecDeque;
@@ -43,14 +44,11 @@ pub(super) fn extend(
     options: &Options,
 ) -> Result<(Contraction, Vec<Evidence>), VerdictError> {
     let mut evidence = Vec::new();
-    let is_wanted = matches!(
-        &options.question,
-        Question::Projective(Projective {
-            method: Method::Bodies(bodies),
-            arithmetic: Arithmetic::Prime,
-            ..
-        }) if bodies.solutions != CountSolutions::Full
-    );
+    let asked = &options.question;
+    let is_wanted = asked.model == Model::Projective
+        && !asked.whole_graph
+        && asked.arithmetic == Arithmetic::Prime
+        && asked.solutions != CountSolutions::Full;
     let mut size = REGION;
     while is_wanted && size <= LARGEST_REGION && may_be_large(&contraction) {
         let assembly = Assembly::new(graph, &contraction);

@@ -1,5 +1,6 @@
 //! Why there is no verdict.
 
+use crate::decide::question::Meaningless;
 use crate::geometry::draw::DrawError;
 use crate::watch::Stopped;
 use std::fmt;
@@ -37,6 +38,8 @@ pub enum VerdictError {
         /// How many nodes the graph has.
         nodes: usize,
     },
+    /// What is asked does not go together.
+    Meaningless(Meaningless),
     /// Displacements that say nothing about the question, and why.
     Displacements(&'static str),
     /// What is asked is answered for pairs alone, and the verdict rests on more.
@@ -68,6 +71,7 @@ impl fmt::Display for VerdictError {
                 f,
                 "a known part has the node {node}, and the graph has {nodes} nodes"
             ),
+            Self::Meaningless(why) => why.fmt(f),
             Self::Displacements(why) => write!(f, "known displacements: {why}"),
             Self::PairsAlone => f.write_str(
                 "this is answered for pairs alone, and the verdict rests on known parts or displacements; \

@@ -32,7 +32,6 @@ mod base_lines;
 mod bodies_by_rank;
 mod claim;
 mod counting;
-mod draft;
 mod drawn;
 mod error;
 pub(crate) mod motion_class;
@@ -53,15 +52,12 @@ pub use base_lines::{RigFrames, SharedBaseLines};
 pub use claim::{Claim, Strength, UnknownStrength};
 #[cfg(test)]
 pub(crate) use counting::GAMMA;
-pub use draft::{Draft, Meaningless};
 pub use error::VerdictError;
 pub use evidence::{Block, Counting, Hub};
 pub use noticed::{Closure, Groups, closure, groups};
 pub use options::{Options, Prime};
 pub use plane_piece::{plane_rank, plane_rank_with_parts};
-pub use question::{
-    Arithmetic, Calibrated, CountSolutions, Known, Method, Projective, ProjectiveBodies, Question,
-};
+pub use question::{Arithmetic, CountSolutions, Known, Meaningless, Question};
 pub use solution_count::SolutionCount;
 pub use verdict::{Component, UnknownValue, Value, Verdict};
 
@@ -78,46 +74,52 @@ use std::sync::Arc;
 /// Decides a graph.
 ///
 /// # Errors
-/// If cameras cannot be drawn, a small prime leaves the question open, the matrix is
+/// If what is asked does not go together, cameras cannot be drawn, a small prime leaves the question open, the matrix is
 /// too large for the method, or the work is stopped. If known parts or displacements are of another
 /// graph.
 pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError> {
-    let model = options.question.model();
-    let known = options.question.known();
-    if let Method::Bodies(known) = &known {
-        check_known(graph, known)?;
-    }
+    let Question {
+        model,
+        whole_graph,
+        known,
+        ..
+    } = &options.question;
+    options
+        .question
+        .check()
+        .map_err(VerdictError::Meaningless)?;
+    check_known(graph, known)?;
     let task = options.watch.task(Step::Contraction, graph.nodes());
     let work = task.begin(0);
     work.done(0)?;
-    let contract = || match &known {
-        Method::Bodies(Known::Displacements(known)) if !known.is_empty() => {
+    let contract = || match known {
+        _ if *whole_graph => Contraction::none(graph),
+        Known::Displacements(known) if !known.is_empty() => {
             Contraction::with_displacements(graph, known)
         }
-        Method::Bodies(Known::Displacements(_)) => Contraction::new(graph, model),
-        Method::Bodies(Known::Parts(parts)) => Contraction::with_parts(graph, parts, model),
-        Method::WholeGraph => Contraction::none(graph),
+        Known::Displacements(_) => Contraction::new(graph, *model),
+        Known::Parts(parts) => Contraction::with_parts(graph, parts, *model),
     };
     let (contraction, sha256) = rayon::join(contract, || sha256(graph));
     work.done(0)?;
     let (contraction, by_rank) = bodies_by_rank::extend(graph, contraction, &sha256, options)?;
-    let placed = match &known {
-        Method::Bodies(Known::Displacements(known)) => Placed::new(graph.nodes(), known),
-        _ => None,
+    let placed = match known {
+        Known::Displacements(known) => Placed::new(graph.nodes(), known),
+        Known::Parts(_) => None,
     };
     let assembly = Assembly::new(graph, &contraction).with_vectors(&contraction, placed);
     let all = assembly.all();
-    let (Split { rigid, pieces }, known) = match known {
-        Method::Bodies(known) => (assembly.split(&all), known),
-        Method::WholeGraph => (assembly.whole(&all), Known::default()),
+    let Split { rigid, pieces } = match whole_graph {
+        true => assembly.whole(&all),
+        false => assembly.split(&all),
     };
     drop(work);
-    let pieces = if model == Model::Affine {
+    let pieces = if *model == Model::Affine {
         plane_piece::decide_all(&assembly, &pieces, &sha256, options)?
     } else {
         one_piece::decide_all(&assembly, &pieces, &sha256, options)?
     };
-    let (known_parts, displacements) = known.split();
+    let (known_parts, displacements) = known.clone().split();
     let found = Found {
         graph,
         options,
@@ -207,7 +209,7 @@ impl Found<'_> {
     }
 
     fn model(&self) -> Model {
-        self.options.question.model()
+        self.options.question.model
     }
 
     /// The rank of a finite solvable graph with as many nodes.
@@ -269,13 +271,11 @@ impl Found<'_> {
 
     /// How much is spent on counting. It is done between bodies that are unique.
     fn effort(&self, contraction: &Contraction) -> CountSolutions {
-        match &self.options.question {
-            Question::Projective(Projective {
-                method: Method::Bodies(bodies),
-                ..
-            }) if contraction.by_rank.is_empty() => bodies.solutions,
-            _ => CountSolutions::Off,
+        let asked = &self.options.question;
+        if asked.whole_graph || !contraction.by_rank.is_empty() {
+            return CountSolutions::Off;
         }
+        asked.solutions
     }
 
     /// The number of solutions of what some bodies and edges form, which is finite solvable.

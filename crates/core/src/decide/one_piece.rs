@@ -11,10 +11,11 @@ use crate::decide::drawn::{Centres, Ranks};
 use crate::decide::error::VerdictError;
 use crate::decide::evidence::{Class, ClassKind, Counting, Draws, Evidence, PieceVerdict};
 use crate::decide::options::Options;
-use crate::decide::question::{Arithmetic, Method, Question};
+use crate::decide::question::Arithmetic;
 use crate::decide::vectors;
 use crate::decide::walk::{ATTEMPTS, Alone, Piece};
 use crate::decide::whole_matrix;
+use crate::geometry::model::Model;
 use crate::watch::Step;
 use rayon::prelude::*;
 
@@ -82,11 +83,12 @@ impl Piece<'_> {
 
     /// The rank of the paper's own matrix on the core, if it was asked for.
     fn whole_matrix(&self) -> Result<Option<(Evidence, usize)>, VerdictError> {
-        let Question::Projective(asked) = &self.options.question else {
+        let asked = &self.options.question;
+        if asked.model != Model::Projective {
             return Ok(None);
-        };
+        }
         let (graph, key, task) = (&self.core.graph, self.key(0), self.task(Step::WholeMatrix));
-        match (asked.arithmetic, &asked.method) {
+        match (asked.arithmetic, asked.whole_graph) {
             (
                 Arithmetic::Rational {
                     numerator,
@@ -94,11 +96,11 @@ impl Piece<'_> {
                 },
                 _,
             ) => whole_matrix::rational(graph, numerator, denominator, &key, &task).map(Some),
-            (Arithmetic::Prime, Method::WholeGraph) => {
+            (Arithmetic::Prime, true) => {
                 let field = self.options.prime.for_whole_matrix();
                 whole_matrix::modular(graph, &field, &key, &task).map(Some)
             }
-            (Arithmetic::Prime, Method::Bodies(_)) => Ok(None),
+            (Arithmetic::Prime, false) => Ok(None),
         }
     }
 
@@ -161,7 +163,8 @@ impl Piece<'_> {
         components: &[Members],
         lower: usize,
     ) -> Result<Option<Counting>, VerdictError> {
-        if !self.options.question.counting() {
+        let asked = &self.options.question;
+        if !asked.counting && asked.model == Model::Projective {
             return Ok(None);
         }
         let counting = match self.assembly.placed() {

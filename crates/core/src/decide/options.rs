@@ -1,6 +1,6 @@
 //! A question, and what it is decided with: primes, draws, and who may stop it.
 
-use crate::decide::question::{Calibrated, Known, Question};
+use crate::decide::question::{Known, Question};
 use crate::geometry::model::Model;
 use crate::graph::Displacements;
 use crate::linalg::prime::{PrimeField, SMALL_PRIME};
@@ -46,7 +46,7 @@ impl Prime {
 /// use viewcert::{Model, Options};
 ///
 /// let options = Options::default().model(Model::Calibrated).seed(7);
-/// assert_eq!((options.question.model(), options.seed), (Model::Calibrated, 7));
+/// assert_eq!((options.question.model, options.seed), (Model::Calibrated, 7));
 /// ```
 #[derive(Clone, Debug)]
 #[non_exhaustive]
@@ -92,7 +92,7 @@ impl Options {
     /// ```
     #[must_use]
     pub fn displacements(self, known: Displacements) -> Self {
-        self.question(Calibrated::with(Known::Displacements(known)))
+        self.question(Question::calibrated(Known::Displacements(known)))
     }
 
     /// Takes other primes.

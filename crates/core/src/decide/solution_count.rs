@@ -123,7 +123,7 @@ impl fmt::Display for SolutionCount {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::decide::{Options, Projective, Question, Value, decide};
+    use crate::decide::{Options, Question, Value, decide};
     use crate::geometry::model::Model;
     use crate::graph::graph6;
 
@@ -166,8 +166,7 @@ mod tests {
         };
         use CountSolutions::{Full, Off, Quick};
         use Value::{FiniteSolvable, NotFiniteSolvable, Solvable};
-        let projective =
-            |graph6, effort| decided(graph6, Projective::with_solutions(effort).into());
+        let projective = |graph6, effort| decided(graph6, Question::with_solutions(effort));
         // A triangle, a cycle of four, a K_{2,3}.
         for effort in [Off, Quick, Full] {
             let one = (Solvable, Some((1, Some(1))), Solvable);

@@ -64,7 +64,7 @@ impl<'a> Piece<'a> {
     }
 
     pub(super) fn model(&self) -> Model {
-        self.options.question.model()
+        self.options.question.model
     }
 
     pub(super) fn nodes(&self) -> usize {

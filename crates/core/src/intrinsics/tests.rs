@@ -2,7 +2,7 @@
 //! shares nothing with normal forms, axes, bodies and groups.
 
 use super::*;
-use crate::decide::{CountSolutions, Options, Projective, Question, decide};
+use crate::decide::{CountSolutions, Options, Question, decide};
 use crate::linalg::Ring;
 use crate::linalg::matrix::Matrix;
 use crate::linalg::prime::PrimeField;
@@ -221,7 +221,7 @@ fn metric_of(graph: &Graph, classes: &[Class]) -> Metric {
 }
 
 fn projective(graph: &Graph) -> Verdict {
-    let question = Question::from(Projective::with_solutions(CountSolutions::Off));
+    let question = Question::with_solutions(CountSolutions::Off);
     decide(graph, &Options::default().question(question)).unwrap()
 }
 

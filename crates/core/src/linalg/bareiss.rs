@@ -136,7 +136,7 @@ pub(crate) fn primitive(vector: &mut [Integer], leader: usize) {
 mod tests {
     use super::super::prime::PrimeField;
     use super::super::rational::{Rational, Rationals};
-    use super::super::samples::{known_rank, multiply};
+    use super::super::tests::samples::{known_rank, multiply};
     use super::super::{Ring, integer::Integers, textbook};
     use super::*;
     use crate::watch::unwatched;

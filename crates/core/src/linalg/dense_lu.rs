@@ -466,7 +466,7 @@ impl Echelon {
 #[cfg(test)]
 mod tests {
     use super::super::prime::{DEFAULT_PRIME, SMALL_PRIME};
-    use super::super::samples::{known_rank, multiply};
+    use super::super::tests::samples::{known_rank, multiply};
     use super::super::textbook;
     use super::*;
     use proptest::prelude::*;

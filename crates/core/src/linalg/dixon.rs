@@ -322,7 +322,7 @@ fn symmetric(residue: &Integer, modulus: &Integer) -> Integer {
 mod tests {
     use super::super::bareiss;
     use super::super::integer::Integers;
-    use super::super::samples::known_rank;
+    use super::super::tests::samples::known_rank;
     use super::*;
     use crate::watch::unwatched;
     use proptest::prelude::*;

@@ -5,16 +5,14 @@ pub mod bareiss;
 pub mod dense_lu;
 pub mod dixon;
 pub mod integer;
-#[cfg(test)]
-mod laws;
 pub mod matrix;
 pub mod prime;
 mod product;
 pub mod rational;
-#[cfg(test)]
-mod samples;
 pub mod span;
 pub mod sparse_lu;
+#[cfg(test)]
+mod tests;
 pub mod textbook;
 
 use std::fmt::Debug;

@@ -395,7 +395,7 @@ impl Field for PrimeField {
 
 #[cfg(test)]
 mod tests {
-    use super::super::laws;
+    use super::super::tests::laws;
     use super::*;
     use proptest::prelude::*;
 

@@ -199,7 +199,7 @@ impl Field for Rationals {
 
 #[cfg(test)]
 mod tests {
-    use super::super::laws;
+    use super::super::tests::laws;
     use super::*;
     use proptest::prelude::*;
 

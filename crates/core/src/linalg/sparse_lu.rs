@@ -674,7 +674,7 @@ impl Factorisation {
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::{known_rank, multiply};
+    use super::super::tests::samples::{known_rank, multiply};
     use super::super::{prime::DEFAULT_PRIME, textbook};
     use super::*;
     use crate::watch::{Limits, Reason, Step, Watch};

@@ -1,5 +1,5 @@
 use super::Unproved;
-use crate::decide::{GAMMA, Projective, Question, decide};
+use crate::decide::{GAMMA, Question, decide};
 use crate::graph::{KnownParts, graph6};
 use crate::{Graph, Model, Options};
 use std::collections::BTreeSet;
@@ -66,10 +66,10 @@ fn an_error_bound_is_no_proof() {
     let cycle = Graph::new(4, [(0, 1), (1, 2), (2, 3), (0, 3)]).unwrap();
     let proof = proof_of(
         &cycle,
-        Question::from(Projective {
+        Question {
             counting: false,
-            ..Projective::default()
-        }),
+            ..Question::default()
+        },
     );
     assert!(proof.is_err());
 }

@@ -1,7 +1,7 @@
 //! The conditions and the exact verdict never contradict each other.
 
 use super::{decide, refuted, solvable};
-use viewcert::decide::{CountSolutions, Options, Projective, Value};
+use viewcert::decide::{CountSolutions, Options, Question, Value};
 use viewcert::graph::{Graph, graph6};
 use viewcert_lab_catalog::random::{Sampler, generator};
 use viewcert_lab_catalog::{Candidates, least_edges};
@@ -28,7 +28,7 @@ impl Agreement {
         } else {
             CountSolutions::Off
         };
-        let options = Options::default().question(Projective::with_solutions(effort));
+        let options = Options::default().question(Question::with_solutions(effort));
         let verdict = viewcert::decide(graph, &options).unwrap();
         self.graphs += 1;
         if refuted(&conditions) {

@@ -1,5 +1,6 @@
 use super::*;
-use crate::decide::{Calibrated, Known, Options, decide};
+use crate::decide::{Known, Options, Question, decide};
+use crate::geometry::model::Model;
 use crate::graph::Displacements;
 use crate::watch::Watch;
 
@@ -237,7 +238,7 @@ fn decided(case: &Case) -> Option<(SharedBaseLines, usize, Vec<Vec<u32>>)> {
             .flat_map(move |first| others.clone().map(move |other| (first, other)))
     });
     let known = Displacements::new(case.nodes as u32, groups).unwrap();
-    let question = Calibrated::with(Known::Displacements(known));
+    let question = Question::calibrated(Known::Displacements(known));
     let verdict = decide(&graph, &Options::default().question(question)).unwrap();
     let watch = Watch::default();
     let frames = RigFrames::new(case.images.iter().cloned(), case.known.clone()).unwrap();
@@ -315,7 +316,7 @@ fn frames_tell_by_turning() {
         let graph = Graph::new(cameras + 10, edges).unwrap();
         let images = (0..frames).map(|f| vec![(2 * f, 0), (2 * f + 1, 1)]);
         let frames = RigFrames::new(images, vec![true, false]).unwrap();
-        let verdict = decide(&graph, &Options::default().question(Calibrated::default())).unwrap();
+        let verdict = decide(&graph, &Options::default().model(Model::Calibrated)).unwrap();
         let found = SharedBaseLines::new(&graph, &verdict, &frames, 0, &Watch::default());
         let found = found.unwrap().unwrap();
         assert_eq!(found.is_determined(), determined, "{found:?}");

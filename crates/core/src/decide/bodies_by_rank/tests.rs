@@ -1,6 +1,6 @@
 use super::*;
 use crate::decide::verdict::{Value, Verdict};
-use crate::decide::{ProjectiveBodies, decide};
+use crate::decide::{Known, Question, decide};
 use crate::geometry::model::Model;
 use crate::graph::KnownParts;
 use crate::watch::{Limits, Watch};
@@ -49,9 +49,9 @@ fn a_grid_becomes_bodies() {
     assert_eq!(found.components[0].edge_count(), 612);
     assert!(!found.contraction.are_unique_finals());
 
-    let whole = Projective {
-        method: Method::WholeGraph,
-        ..Projective::default()
+    let whole = Question {
+        whole_graph: true,
+        ..Question::default()
     };
     let whole = solve(&graph, Options::default().question(whole));
     assert!(whole.by_rank.is_empty());
@@ -84,13 +84,10 @@ fn known_parts_are_members() {
     assert_eq!(found.rank, 11 * 306 - 16);
     assert!(!found.contraction.are_unique_finals());
     // Without bodies by rank, too.
-    let method = Method::Bodies(ProjectiveBodies {
-        known_parts: KnownParts::new(306, [part]).unwrap(),
+    let asked = Question {
+        known: Known::Parts(KnownParts::new(306, [part]).unwrap()),
         solutions: CountSolutions::Full,
-    });
-    let asked = Projective {
-        method,
-        ..Projective::default()
+        ..Question::default()
     };
     let counted = solve(&graph, Options::default().question(asked));
     assert!(counted.by_rank.is_empty());
@@ -111,7 +108,7 @@ fn what_hangs_on_a_body_stays_outside() {
     // Solutions are counted of unique members only: who wants that gets no others.
     let counted = solve(
         &graph,
-        Options::default().question(Projective::with_solutions(CountSolutions::Full)),
+        Options::default().question(Question::with_solutions(CountSolutions::Full)),
     );
     assert!(!found.by_rank.is_empty() && counted.by_rank.is_empty());
     assert_eq!(facts(&graph, &found), facts(&graph, &counted));

@@ -236,7 +236,7 @@ impl Ring for Integers {
 
 #[cfg(test)]
 mod tests {
-    use super::super::laws;
+    use super::super::tests::laws;
     use super::*;
     use proptest::prelude::*;
 

@@ -12,7 +12,7 @@ use rand_chacha::ChaCha8Rng;
 ///
 /// # Panics
 /// If the rank is larger than the number of rows or columns.
-pub(super) fn known_rank<R: Ring>(
+pub(in crate::linalg) fn known_rank<R: Ring>(
     ring: &R,
     rows: usize,
     cols: usize,
@@ -62,7 +62,7 @@ pub(super) fn known_rank<R: Ring>(
 }
 
 /// `matrix * vector`
-pub(super) fn multiply<R: Ring>(
+pub(in crate::linalg) fn multiply<R: Ring>(
     ring: &R,
     matrix: &Matrix<R::Elem>,
     vector: &[R::Elem],

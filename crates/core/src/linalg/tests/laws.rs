@@ -3,7 +3,7 @@
 use crate::linalg::{Field, Ring};
 
 /// The axioms of a commutative ring with one, at three elements.
-pub(super) fn ring<R: Ring>(r: &R, a: &R::Elem, b: &R::Elem, c: &R::Elem) {
+pub(in crate::linalg) fn ring<R: Ring>(r: &R, a: &R::Elem, b: &R::Elem, c: &R::Elem) {
     let (zero, one) = (r.zero(), r.one());
     assert!(r.is_zero(&zero) && !r.is_zero(&one));
     assert_eq!(r.add(a, b), r.add(b, a));
@@ -19,7 +19,7 @@ pub(super) fn ring<R: Ring>(r: &R, a: &R::Elem, b: &R::Elem, c: &R::Elem) {
 }
 
 /// `from_i64` is a homomorphism at `k` and `l` (small enough not to overflow).
-pub(super) fn integers<R: Ring>(r: &R, k: i64, l: i64) {
+pub(in crate::linalg) fn integers<R: Ring>(r: &R, k: i64, l: i64) {
     let (x, y) = (r.from_i64(k), r.from_i64(l));
     assert_eq!(r.from_i64(k + l), r.add(&x, &y));
     assert_eq!(r.from_i64(k * l), r.mul(&x, &y));
@@ -29,7 +29,7 @@ pub(super) fn integers<R: Ring>(r: &R, k: i64, l: i64) {
 }
 
 /// Inverses exist exactly for what is not zero.
-pub(super) fn field<F: Field>(f: &F, a: &F::Elem) {
+pub(in crate::linalg) fn field<F: Field>(f: &F, a: &F::Elem) {
     match f.inv(a) {
         Some(inverse) => assert_eq!(f.mul(a, &inverse), f.one()),
         None => assert!(f.is_zero(a)),

@@ -1,0 +1,4 @@
+//! What tests of several arithmetics and eliminations share.
+
+pub(super) mod laws;
+pub(super) mod samples;
