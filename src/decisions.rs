@@ -21,14 +21,13 @@ use viewcert_advice::priors::Priors;
 use viewcert_advice::{Advice, Shapes};
 use viewcert_formats::NamedGraph;
 use viewcert_report::assumptions::{BaseLines, Scope};
-use viewcert_report::graph_picture::{self, Picture};
 use viewcert_report::here::HereReport;
 use viewcert_report::intrinsics::IntrinsicsLine;
 use viewcert_report::many::Table;
-use viewcert_report::motion_picture::{self, Frames};
+use viewcert_report::motion;
 use viewcert_report::priors::PriorsLine;
-use viewcert_report::{Report, WrittenProof};
-use viewcert_report::{json, page};
+use viewcert_report::scene::Scene;
+use viewcert_report::{Report, WrittenProof, json};
 use viewcert_session::exit::{GOOD, NOT, ends_run};
 use viewcert_session::{Outputs, Session, complain, outputs, printable};
 
@@ -388,17 +387,15 @@ fn draw(session: &Session, products: &Products, report: &Report) -> Result<()> {
         return Ok(());
     }
     session.doing(format!("drawing {}", report.input.name));
-    let picture = Picture::new(report.input, report.verdict);
-    let drawn = graph_picture::draw(&picture);
     let outputs = session.outputs();
     if let Some(path) = &products.picture {
-        let motion = |here| motion_picture::picture(&here, Frames::Still);
-        let motion = report.here.and_then(motion);
-        let text = motion.unwrap_or_else(|| graph_picture::document(&picture, &drawn, true));
+        let text = report.here.as_ref().and_then(motion::picture);
+        let text = text.unwrap_or_else(|| Scene::new(report.input, report.verdict).svg(true));
         outputs.write(path, |out| out.write_all(text.as_bytes()))?;
     }
     if let Some(path) = &products.page {
-        outputs.write(path, |out| page::write(out, report, &picture, &drawn))?;
+        let page = report.page()?;
+        outputs.write(path, |out| out.write_all(&page))?;
     }
     Ok(())
 }

@@ -363,9 +363,7 @@ fn write_page(session: &Session, file: &Path, found: &Overview) -> Result<()> {
     session.doing(format!("drawing {}", found.name));
     let page = overview_page::html(found, found.joints)?;
     session.hide();
-    session
-        .outputs()
-        .write(file, |out| out.write_all(page.as_bytes()))
+    session.outputs().write(file, |out| out.write_all(&page))
 }
 
 /// What was merged, ignored or guessed, and where the choice of pairs is not that of both mappers.

@@ -94,7 +94,7 @@ pub(super) fn run(session: &Session, arguments: &SplitArguments) -> Result<u8> {
     let found = split::split(outputs, folder, &model, &input, &verdict, whole, |split| {
         report.time = start.elapsed();
         let report = SplitReport { report, split };
-        Ok(report.page()?.into_bytes())
+        Ok(report.page()?)
     });
     session.hide();
     let found = found?;

@@ -228,9 +228,8 @@ fn what_moves_is_drawn() {
         (d[1] / c[1] - 2.0 * 17.0 / (13.0 * 3.0)).abs() < 0.02,
         "{arrows:?}"
     );
-    assert!(!svg.contains("<animate") && page.contains("<section id=\"motion\">"));
-    // Four lines with four ends each, two discs with two coordinates.
-    assert_eq!(page.matches("<animate ").count(), 4 * 4 + 2 * 2);
+    let (_, section) = page.split_once("<section id=\"motion\">").unwrap();
+    assert!(section.contains(svg.trim_end()), "{section}");
     // The same at cameras that hold: the picture of the graph, and no motion.
     let held = folder.path().join("held.txt");
     std::fs::write(

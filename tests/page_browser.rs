@@ -254,7 +254,7 @@ fn further_parts_are_shown() {
     assert_eq!(found, [["x-z", "12"], ["x-y", "3"]]);
 }
 
-/// Pages of graphs as they are: one by one, and drawn by components.
+/// Pages of graphs as they are: all nodes drawn, and some of them.
 #[test]
 #[ignore = "needs data and chromium"]
 fn real_graphs_have_pages() {
@@ -271,7 +271,6 @@ fn real_graphs_have_pages() {
         agrees(&opened, &report);
         let drawn = opened.matches("<g data-node=").count();
         assert_eq!(drawn == nodes, detailed, "{name}: {drawn} of {nodes}");
-        assert!(section(&opened, "adjacency").contains("data:image/png;base64,"));
         assert!(fs::metadata(page.path()).unwrap().len() < 3 << 20, "{name}");
     }
 }

@@ -1,8 +1,8 @@
 //! A page of drawings of small graphs.
 
 use crate::layout::layout;
+use crate::svg::Svg;
 use viewcert::graph::Graph;
-use viewcert_report::svg::Svg;
 
 /// A graph to be drawn.
 #[derive(Clone, Debug)]

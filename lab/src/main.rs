@@ -13,6 +13,7 @@ mod oriented;
 mod plot;
 mod report;
 mod solutions;
+mod svg;
 mod thinned;
 
 use clap::{Parser, Subcommand};

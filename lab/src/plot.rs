@@ -1,7 +1,7 @@
 //! The plot of a random experiment: share of finite-solvable graphs, and numbers of
 //! components, against density.
 
-use viewcert_report::svg::Svg;
+use crate::svg::Svg;
 
 /// The results at one density.
 #[derive(Clone, Copy, Debug)]

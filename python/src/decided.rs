@@ -23,6 +23,7 @@ use viewcert_report::Report;
 use viewcert_report::assumptions::{self, Scope};
 use viewcert_report::intrinsics::IntrinsicsLine;
 use viewcert_report::priors::PriorsLine;
+use viewcert_report::scene::Scene;
 use viewcert_session::Outputs;
 
 /// Numbers as an array of NumPy.
@@ -520,7 +521,7 @@ impl Decided {
     /// The graph with its components in colours, as SVG.
     fn picture(&self, py: Python<'_>) -> PyResult<String> {
         let (input, verdict) = (Arc::clone(&self.input), Arc::clone(&self.verdict));
-        work::run(py, move || viewcert_report::picture(&input, &verdict))
+        work::run(py, move || Scene::new(&input, &verdict).svg(true))
     }
 
     /// Writes a file whole or not at all.

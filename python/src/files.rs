@@ -92,7 +92,7 @@ pub(crate) fn overview<'py>(
             match &*kind {
                 "json" => found.write_json(&mut out)?,
                 "text" => found.write(&mut out)?,
-                _ => out = overview_page::html(found, found.joints)?.into_bytes(),
+                _ => out = overview_page::html(found, found.joints)?,
             }
             Ok(())
         })?;

@@ -5,7 +5,7 @@ use crate::errors::of_any;
 use crate::work::{self, Job};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
-use viewcert_report::graph_picture::Picture;
+use viewcert_report::scene::Scene;
 use viewcert_report::witness_file::{second, write_witness};
 
 /// Two solutions modulo a prime, as JSON. Instead of them, why there is nothing to look at: a word and a
@@ -41,11 +41,8 @@ pub(crate) fn drawing<'py>(
 ) -> PyResult<Option<(Bound<'py, PyArray2<f64>>, Vec<&'static str>)>> {
     let (input, verdict) = decided.answer();
     let found = work::run(py, move || {
-        let picture = Picture::new(&input, &verdict);
-        let points = picture.points()?;
-        let components = 0..verdict.components.len();
-        let colours = components.map(|k| picture.mark(k).colour());
-        Some((points, colours.collect::<Vec<_>>()))
+        let scene = Scene::new(&input, &verdict);
+        Some((scene.points()?, scene.colours()))
     })?;
     let Some((points, colours)) = found else {
         return Ok(None);

@@ -8,8 +8,6 @@ pub mod assumptions;
 pub mod audit;
 mod condition;
 pub mod database;
-pub mod force_layout;
-pub mod graph_picture;
 pub mod here;
 pub mod intrinsics;
 pub mod json;
@@ -19,27 +17,26 @@ pub mod many;
 mod mappers;
 pub mod merge;
 pub mod models;
-pub mod motion_picture;
+pub mod motion;
 mod narrow;
 pub mod next;
 mod noticed;
 pub mod overview;
 pub mod overview_page;
-pub mod page;
+mod page;
 mod part_names;
 pub mod priors;
 pub mod read;
-pub mod sheet;
+pub mod scene;
 mod shown;
 pub mod split;
-pub mod svg;
 pub mod table;
 pub mod text;
 pub mod tracks;
 pub mod witness_file;
 
 use assumptions::Scope;
-use graph_picture::{Picture, document, draw};
+use scene::Scene;
 use std::fmt;
 use std::io::{self, Write};
 use std::path::Path;
@@ -181,16 +178,9 @@ impl Report<'_> {
     /// As of [`json`](Self::json).
     pub fn page(&self) -> io::Result<Vec<u8>> {
         let mut out = Vec::new();
-        let picture = Picture::new(self.input, self.verdict);
-        page::write(&mut out, self, &picture, &draw(&picture))?;
+        page::write(&mut out, self, &Scene::of(self, &[]), None)?;
         Ok(out)
     }
-}
-
-/// The picture of a graph with its components in colours, as SVG.
-pub fn picture(input: &NamedGraph, verdict: &Verdict) -> String {
-    let picture = Picture::new(input, verdict);
-    document(&picture, &draw(&picture), true)
 }
 
 #[cfg(test)]

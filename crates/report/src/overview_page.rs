@@ -1,9 +1,10 @@
-//! What pairs and tracks of one input determine, as one page: everything that the screen says, and
-//! the images with what is between them.
+//! What pairs and tracks of one input determine, as one page: everything that the screen says, and the report of the
+//! graph that decides.
 
 use crate::Report;
 use crate::overview::Overview;
-use crate::sheet::{Scene, Sheet};
+use crate::page::{self, Foreword};
+use crate::scene::Scene;
 use std::io;
 use viewcert_advice::Advice;
 
@@ -11,7 +12,7 @@ use viewcert_advice::Advice;
 ///
 /// # Errors
 /// None that an input can cause.
-pub fn html(overview: &Overview, advice: &Advice) -> io::Result<String> {
+pub fn html(overview: &Overview, advice: &Advice) -> io::Result<Vec<u8>> {
     let mut text = Vec::new();
     overview.write(&mut text)?;
     let pairs = overview.pairs.as_ref().map(|[_, calibrated]| calibrated);
@@ -35,13 +36,17 @@ pub fn html(overview: &Overview, advice: &Advice) -> io::Result<String> {
         (None, true) => format!("The {what} determine all images {}", overview.condition()),
         (None, false) => format!("The {what} do not determine all images"),
     };
-    let sheet = Sheet {
+    let foreword = Foreword {
         kind: "What to expect of a reconstruction",
-        name: overview.name,
         answer: (format!("{what}."), is_good),
         text: &String::from_utf8_lossy(&text),
-        scene: Scene::new(report, matched),
-        advice,
     };
-    Ok(sheet.html())
+    let mut page = Vec::new();
+    page::write(
+        &mut page,
+        &report,
+        &Scene::of(&report, matched),
+        Some(&foreword),
+    )?;
+    Ok(page)
 }

@@ -6,7 +6,8 @@ use super::tracks::{self, TrackLine};
 use super::{Report, condition, counted, text};
 use crate::advice::joints as write_joints;
 use crate::assumptions::BaseLines;
-use crate::sheet::{Scene, Sheet};
+use crate::page::{self, Foreword};
+use crate::scene::Scene;
 use crate::shown::{SHOWN, some_names};
 use serde::Serialize;
 use std::io::{self, Write};
@@ -140,18 +141,22 @@ impl SplitReport<'_> {
     ///
     /// # Errors
     /// None that a model can cause.
-    pub fn page(&self) -> io::Result<String> {
+    pub fn page(&self) -> io::Result<Vec<u8>> {
         let mut text = Vec::new();
         self.write(&mut text)?;
-        let sheet = Sheet {
+        let foreword = Foreword {
             kind: "A model taken apart",
-            name: &self.report.input.name,
             answer: (capital(&self.why()), self.is_whole()),
             text: &String::from_utf8_lossy(&text),
-            scene: Scene::new(self.report, &[]),
-            advice: self.report.advice,
         };
-        Ok(sheet.html())
+        let mut page = Vec::new();
+        page::write(
+            &mut page,
+            &self.report,
+            &Scene::of(&self.report, &[]),
+            Some(&foreword),
+        )?;
+        Ok(page)
     }
 
     /// Writes everything as one line of JSON.

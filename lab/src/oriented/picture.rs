@@ -6,10 +6,10 @@
 //! the integers; a picture proves nothing.
 
 use super::{Oriented, Scene, Standing};
+use crate::svg::{COLOURS, Svg};
 use viewcert::geometry::camera::Camera;
 use viewcert::linalg::integer::Integer;
 use viewcert_formats::NamedGraph;
-use viewcert_report::svg::{COLOURS, Svg};
 
 type Vector = [f64; 3];
 

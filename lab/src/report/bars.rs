@@ -1,6 +1,6 @@
 //! Grouped bars on a logarithmic scale.
 
-use viewcert_report::svg::{COLOURS, Svg};
+use crate::svg::{COLOURS, Svg};
 
 /// What is drawn.
 #[derive(Clone, Debug)]

@@ -1,6 +1,6 @@
 //! Two populations on a logarithmic axis, and the errors of every threshold between them.
 
-use viewcert_report::svg::{COLOURS, Svg};
+use crate::svg::{COLOURS, Svg};
 
 /// What is drawn.
 #[derive(Clone, Debug)]

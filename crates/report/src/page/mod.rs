@@ -1,36 +1,56 @@
 //! The report of one graph as one page, which needs no network and no other file.
 //!
-//! In: what `verify --json` prints, and a picture of the graph. Out: the template filled with both,
-//! with its style and its script. The script reads all numbers from the JSON, so that the page and
-//! the JSON cannot differ.
+//! In: what `verify --json` prints, a picture of the graph, and perhaps what a command prints for people. Out: the
+//! template filled with these, with its style and its script. The script reads all numbers from the JSON, so that the
+//! page and the JSON cannot differ.
 //!
 //! Names come from files of others. They are escaped; and the page's policy lets no script run
 //! but its own.
 
-mod adjacency;
-
-use super::graph_picture::{Drawn, Picture, document};
-use super::motion_picture::{self, Frames};
-use super::svg::{COLOURS, escaped};
+use super::motion;
+use super::scene::{COLOURS, Kind, Scene, escaped};
 use super::{Report, json};
-use adjacency::Adjacency;
 use base64::{Engine, prelude::BASE64_STANDARD};
 use serde::Serialize;
 use sha2::{Digest, Sha256};
-use std::borrow::Cow;
 use std::io::{self, Write};
 
 const TEMPLATE: &str = include_str!("template.html");
 const STYLE: &str = include_str!("style.css");
 const SCRIPT: &str = include_str!("script.js");
 
-/// Fewest nodes for which an adjacency picture says more than the graph itself.
-const ADJACENCY_FROM: usize = 100;
-
 /// The section with the motions at given cameras, which is there only if there are some.
 const MOTION: &str = "<section id=\"motion\"><h2>What moves at the given cameras</h2>\n<p class=\"explanation\">\
     Motions of first order, exact, that leave all pairs as they are; the largest part is held still, and arrows show \
     where the other centres go. Colours are the parts here.</p>\n";
+
+/// What a page says before the report: the answer in a sentence, and the words of a command.
+pub(crate) struct Foreword<'a> {
+    /// What kind of page it is.
+    pub(crate) kind: &'a str,
+    /// The answer, and whether it is good.
+    pub(crate) answer: (String, bool),
+    /// What the command prints for people, below its first line.
+    pub(crate) text: &'a str,
+}
+
+impl Foreword<'_> {
+    fn html(&self) -> String {
+        let (answer, is_good) = &self.answer;
+        // A page is the same each time.
+        let lines = self.text.lines().skip(1);
+        let lines: Vec<&str> = lines.filter(|line| !line.starts_with("  time ")).collect();
+        format!(
+            "<div id=\"answer\" class=\"{}\"><p class=\"answer\">{}</p></div>\n<pre id=\"words\">{}</pre>\n",
+            if *is_good { "good" } else { "bad" },
+            escaped(answer),
+            lines
+                .iter()
+                .map(|line| escaped(line) + "\n")
+                .collect::<String>()
+        )
+    }
+}
 
 /// What the script needs besides the report.
 #[derive(Serialize)]
@@ -38,11 +58,13 @@ struct Drawing<'a> {
     /// The program's version.
     version: &'static str,
     /// Names of the cameras, in the order of the nodes.
-    names: Vec<Cow<'a, str>>,
+    names: &'a [String],
     /// How many edges each of them has.
     degrees: Vec<u32>,
-    /// The edges, end after end, if the picture shows them one by one.
+    /// The lines, end after end, if the picture shows all nodes.
     edges: Option<Vec<u32>>,
+    /// How many lines are dashed and dotted.
+    others: [usize; 2],
     /// The colours of components, which repeat with another shape.
     colours: [&'static str; COLOURS.len()],
     /// How many components, the first ones, have a mark of their own.
@@ -50,19 +72,17 @@ struct Drawing<'a> {
     /// The nodes of each metric component, if cameras have classes.
     #[serde(skip_serializing_if = "Option::is_none")]
     metric: Option<&'a [Vec<u32>]>,
-    /// The adjacency picture, without its pixels.
-    adjacency: Option<&'a Adjacency>,
 }
 
 /// Writes the page.
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write(
+pub(crate) fn write(
     out: &mut dyn Write,
     report: &Report,
-    picture: &Picture,
-    drawn: &Drawn,
+    scene: &Scene,
+    foreword: Option<&Foreword>,
 ) -> io::Result<()> {
     let mut numbers = Vec::new();
     let listing = Report {
@@ -70,9 +90,7 @@ pub fn write(
         ..*report
     };
     json::write(&mut numbers, &listing)?;
-    let nodes = report.input.graph.nodes();
-    let adjacency = (nodes >= ADJACENCY_FROM).then(|| Adjacency::new(picture));
-    let drawing = serde_json::to_vec(&drawing(report, picture, adjacency.as_ref()))?;
+    let drawing = serde_json::to_vec(&drawing(report, scene))?;
     let mut parts = TEMPLATE.split("{{");
     out.write_all(parts.next().unwrap_or_default().as_bytes())?;
     for part in parts {
@@ -82,20 +100,21 @@ pub fn write(
             "policy" => write!(out, "script-src 'sha256-{}'", hash(SCRIPT))?,
             "style" => out.write_all(STYLE.as_bytes())?,
             "script" => out.write_all(SCRIPT.as_bytes())?,
+            "kind" => out.write_all(
+                foreword
+                    .map_or("Viewing graph", |words| words.kind)
+                    .as_bytes(),
+            )?,
+            "foreword" => {
+                let words = foreword.map_or_else(String::new, Foreword::html);
+                out.write_all(words.as_bytes())?;
+            }
             "report" => embed(out, numbers.trim_ascii_end())?,
             "drawing" => embed(out, &drawing)?,
-            "picture" => out.write_all(document(picture, drawn, false).as_bytes())?,
+            "picture" => out.write_all(scene.svg(false).as_bytes())?,
             "motion" => {
-                let moving = |here| motion_picture::picture(&here, Frames::Moving);
-                if let Some(picture) = report.here.and_then(moving) {
+                if let Some(picture) = report.here.as_ref().and_then(motion::picture) {
                     write!(out, "{MOTION}{picture}</section>")?;
-                }
-            }
-            "adjacency" => {
-                if let Some(adjacency) = &adjacency {
-                    write!(out, "data:image/png;base64,")?;
-                    let pixels = BASE64_STANDARD.encode(adjacency.png(picture)?);
-                    out.write_all(pixels.as_bytes())?;
                 }
             }
             _ => unreachable!("the template has no field {name}"),
@@ -105,31 +124,25 @@ pub fn write(
     Ok(())
 }
 
-fn drawing<'a>(
-    report: &'a Report,
-    picture: &Picture,
-    adjacency: Option<&'a Adjacency>,
-) -> Drawing<'a> {
+fn drawing<'a>(report: &'a Report, scene: &'a Scene) -> Drawing<'a> {
     let graph = &report.input.graph;
-    let cameras = picture.cameras();
     let mut degrees = vec![0u32; graph.nodes()];
     for &(i, j) in graph.edges() {
         degrees[i as usize] += 1;
         degrees[j as usize] += 1;
     }
-    degrees.truncate(cameras);
-    let edges = graph.edges().iter().flat_map(|&(i, j)| [i, j]);
+    degrees.truncate(scene.names.len());
+    let edges = scene.edges.iter().filter(|edge| edge.kind == Kind::Pair);
+    let edges = edges.flat_map(|edge| [edge.ends.0, edge.ends.1]);
     Drawing {
         version: env!("CARGO_PKG_VERSION"),
-        names: (0..cameras as u32)
-            .map(|v| report.input.labels.label(v))
-            .collect(),
+        names: &scene.names,
         degrees,
-        edges: picture.is_detailed().then(|| edges.collect()),
+        edges: scene.is_whole().then(|| edges.collect()),
+        others: [Kind::Short, Kind::Suggested].map(|kind| scene.of_kind(kind)),
         colours: COLOURS,
-        marked: picture.marked(),
+        marked: scene.marked(),
         metric: report.scope.intrinsics().map(|found| found.nodes()),
-        adjacency,
     }
 }
 
@@ -179,7 +192,8 @@ mod tests {
         assert!(!SCRIPT.contains("</script") && !SCRIPT.contains("<!--"));
         assert!(!STYLE.contains("</style"));
         for name in [
-            "title", "policy", "style", "script", "report", "drawing", "picture",
+            "title", "policy", "style", "script", "kind", "foreword", "report", "drawing",
+            "picture",
         ] {
             assert!(TEMPLATE.contains(&format!("{{{{{name}}}}}")), "{name}");
         }

@@ -199,7 +199,7 @@
     const time = report.seconds < 1
       ? `${(1000 * report.seconds).toFixed(report.seconds < 0.01 ? 1 : 0)} ms`
       : `${report.seconds.toFixed(report.seconds < 10 ? 1 : 0)} s`;
-    add("time", time, "/seconds");
+    if (report.seconds > 0) add("time", time, "/seconds");
     add("SHA-256 of the graph", report.graph.sha256, "/graph/sha256", null, true);
     find("#summary").append(facts);
     if (report.notes.length > 0) {
@@ -221,7 +221,6 @@
     return [e, f];
   };
   const describeNode = (node) => {
-    if (node >= names.length) return `point ${node - names.length + 1}`;
     const numbers = componentsOf[node].map((index) => index + 1);
     const where = numbers.length === 0
       ? "in no component"
@@ -373,40 +372,11 @@
     add(glyph(components.length), pairs, counted(pairs, `single ${edgeWord}`));
     add(hingeGlyph(), hinges.length, `${counted(hinges.length, "camera")} in several components`);
     add(emptyGlyph(), isolated.length, `${counted(isolated.length, "camera")} without ${edgeWord}s`);
-  };
-
-  // ---- The adjacency picture
-
-  const showAdjacency = () => {
-    const found = drawing.adjacency;
-    if (!found) return;
-    const section = find("#adjacency");
-    const image = section.querySelector("img");
-    const where = section.querySelector(".where");
-    const [columns, rows] = found.cell;
-    const per = columns === 1 && rows === 1
-      ? `a pixel is one possible ${edgeWord}`
-      : `a pixel stands for ${columns} x ${rows} possible ${edgeWord}s, the fuller the stronger`;
-    section.hidden = false;
-    section.querySelector(".explanation").textContent = (tracks
-      ? "Rows are cameras, columns are points; "
-      : "Rows and columns are cameras; ") +
-      `a component is a block on the diagonal, and what joins components stands outside; ${per}.`;
-    image.alt = `Adjacency matrix of ${counted(names.length, "camera")}, ordered by component.`;
-    const range = (list, at, step) => {
-      const few = list.slice(at * step, (at + 1) * step);
-      const [first, last] = [names[few[0]], names[few[few.length - 1]]];
-      return few.length > 1 ? `${first} ... ${last}` : first;
-    };
-    image.addEventListener("pointermove", (event) => {
-      const box = image.getBoundingClientRect();
-      const at = (position, count) => Math.max(0, Math.min(count - 1, Math.floor(position * count)));
-      const x = at((event.clientX - box.left) / box.width, found.size[0]);
-      const y = at((event.clientY - box.top) / box.height, found.size[1]);
-      const row = range(found.rows, y, rows);
-      where.textContent = tracks ? row : `${row}  ×  ${range(found.rows, x, columns)}`;
-    });
-    image.addEventListener("pointerleave", () => { where.textContent = ""; });
+    const lineGlyph = (stroke, dashes) =>
+      glyphOf([svg("path", { d: "M-7 0H7", stroke, "stroke-width": 2, "stroke-dasharray": dashes })]);
+    const [short, suggested] = drawing.others;
+    add(lineGlyph("#5b6470", "4 2"), short, `${counted(short, "pair")} of images are matched, their tracks too short`);
+    add(lineGlyph("#0b5cad", "1.5 2"), suggested, `${counted(suggested, "pair")} of images are suggested to be matched`);
   };
 
   // ---- Tables
@@ -687,7 +657,6 @@
     planar: "If all centres lie in one plane",
     tracks: "Tracks",
     export: "Export",
-    margin: "Margin",
     parts: "Known parts",
     weak: "Weak places",
     surplus: "What the rest checks",
@@ -695,7 +664,6 @@
     implied: "Determined though not there",
     suggestions: "What would join components",
     explain: "Explanation",
-    sweep: "Components by threshold",
   };
   // What components hang on: a sentence, and the list.
   const weakPart = (id, { of, kept, items, single_pairs: single }) => {
@@ -747,22 +715,6 @@
     } else {
       section.append(html("p", {}, said));
     }
-    return section;
-  };
-  // How often components stay whole, and how much of them together, by how much is missing.
-  const marginPart = (id, margin) => {
-    const section = html("section", { id }, html("h2", {}, TITLES.margin));
-    const caption = `In how many of ${margin.draws} draws a component stays whole, and how many percent of it stay ` +
-      `together on average, if so many percent of the ${margin.of} are missing (seed ${margin.seed}).`;
-    table(section, caption, [
-      { title: "component", number: true, value: (row) => row.component, show: (row) => componentButton(row.component - 1) },
-      ...margin.missing.map((missing, k) => ({
-        title: `${missing} %`,
-        number: true,
-        value: (row) => row.whole[k],
-        show: (row) => `${row.whole[k]} whole, ${Math.round(row.together[k])} % together`,
-      })),
-    ], margin.components);
     return section;
   };
   // Which intrinsics are determined: over the picture pairs in the colours of their metric components, grey
@@ -848,7 +800,6 @@
     if (name === "weak" && Array.isArray(value.items)) return weakPart(id, value);
     if (name === "surplus" && Array.isArray(value.items)) return surplusPart(id, value);
     if (name === "intrinsics" && Array.isArray(value.classes)) return intrinsicsPart(id, value);
-    if (name === "margin" && Array.isArray(value.missing)) return marginPart(id, value);
     return part(id, TITLES[name] ?? named(name), value);
   };
   const showFurther = () => {
@@ -867,7 +818,7 @@
     );
   };
 
-  const steps = [showVerdict, showFacts, setUpPicture, showLegend, showAdjacency, showComponents,
+  const steps = [showVerdict, showFacts, setUpPicture, showLegend, showComponents,
     showJoints, showCameras, showFurther, showFooter];
   // One part that fails must not take the others with it.
   for (const step of steps) {
