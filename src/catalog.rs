@@ -100,7 +100,7 @@ pub(super) fn run(session: &Session, arguments: &Arguments) -> Result<u8> {
             graphs.retain(|graph| nodes == 3 || !has_adjacent_nodes_of_degree_2(graph));
         }
         let (mut summary, mut solutions) = (Summary::default(), BTreeMap::new());
-        let progress = session.progress("candidates", Some(graphs.len() as u64));
+        session.doing(format!("deciding {} candidates", graphs.len()));
         for batch in graphs.chunks(BATCH) {
             for (graph, (entry, verdict)) in batch.iter().zip(decided(batch, &options)?) {
                 summary.count(&entry);
@@ -117,9 +117,7 @@ pub(super) fn run(session: &Session, arguments: &Arguments) -> Result<u8> {
                     list.row(entry.cells()).context("standard output")?;
                 }
             }
-            progress.done(batch.len() as u64);
         }
-        progress.finish();
         let which = match arguments.necessary {
             true => "necessary",
             false => "biconnected",

@@ -40,8 +40,7 @@ pub struct InputArguments {
     /// Leave out pairs of a camera with itself, which are refused otherwise.
     #[arg(long, help_heading = READING, hide = true)]
     skip_loops: bool,
-    /// Variable of a MATLAB file [default: A, the only square matrix, or the only two columns of
-    /// numbers of cameras].
+    /// Variable of a MATLAB file [default: A, or the only square matrix].
     #[arg(long, value_name = "NAME", help_heading = READING, hide = true)]
     variable: Option<String>,
     /// Which pairs of a COLMAP database count: those that this mapper takes [default: incremental].

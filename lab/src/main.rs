@@ -11,6 +11,7 @@ mod layout;
 mod mixtures;
 mod oriented;
 mod plot;
+mod progress;
 mod report;
 mod solutions;
 mod svg;

@@ -322,9 +322,9 @@ pub enum Problem {
     /// Something in a MatrixMarket file that is not as it has to be.
     #[error("MatrixMarket: {0}")]
     MatrixMarket(String),
-    /// A MATLAB file of level 4.
-    #[error("a MATLAB file of version 4 is not read here")]
-    MatlabFour,
+    /// A MATLAB file whose numbers are stored the other way round.
+    #[error("a MATLAB file of a big-endian machine is not read here")]
+    MatlabBigEndian,
     /// A MATLAB file of level 7.3, which is HDF5.
     #[error("HDF5, as MATLAB writes it in version 7.3, is not read here")]
     MatlabHdf5,
@@ -405,13 +405,8 @@ pub enum Problem {
         /// The entry.
         value: f64,
     },
-    /// A number that is none of a camera, where two columns are pairs.
-    #[error("in two columns of numbers, {0} is no number of a camera")]
-    NoPairs(f64),
-    /// No variable that could be an adjacency or a list of pairs.
-    #[error(
-        "there is no square matrix, and there are no two columns of numbers of cameras; the file holds {present}"
-    )]
+    /// No variable that could be an adjacency.
+    #[error("there is no square matrix; the file holds {present}")]
     NoMatrix {
         /// The variables that are there, described.
         present: String,
@@ -444,12 +439,8 @@ impl Problem {
             | Self::Own { advice, .. }
             | Self::Doubtful { advice, .. }
             | Self::NoPoints { advice, .. } => advice,
-            Self::Compressed(_) => {
-                "copy the file again, and test it (`gzip -t`, `bzip2 -t`, `xz -t`, `zstd -t`)"
-            }
-            Self::Inflated(_) => {
-                "if you trust it, unpack it first (`gunzip`, `bunzip2`, `unxz`, `unzstd --memory=2048MB`)"
-            }
+            Self::Compressed(_) => "copy the file again, and test it (`gzip -t`, `bzip2 -t`)",
+            Self::Inflated(_) => "if you trust it, unpack it first (`gunzip`, `bunzip2`)",
             Self::Unused { .. } => "leave it out",
             Self::NoNodes => "give at least one pair of cameras",
             Self::Empty | Self::NothingGiven(_) => {
@@ -528,7 +519,7 @@ impl Problem {
             Self::MatrixMarket(_) => {
                 "write it again as `%%MatrixMarket matrix coordinate pattern symmetric`"
             }
-            Self::MatlabFour => "save it in MATLAB with -v7 or -v6",
+            Self::MatlabBigEndian => "save it in MATLAB with -v7 or -v6",
             Self::MatlabHdf5 => {
                 "in Python: viewcert.verify(h5py.File('FILE')['A'][:]); or save it in MATLAB with -v7"
             }
@@ -547,15 +538,12 @@ impl Problem {
                 "name the adjacency matrix with --variable"
             }
             Self::NotNumeric(_) | Self::NotSquare(_) => {
-                "give a square matrix, of which rows and columns are cameras, or two columns of pairs (of several variables: --variable)"
+                "give a square matrix, of which rows and columns are cameras (of several variables: --variable), or write pairs as text, one a line"
             }
             Self::Complex => "save its real part, or the matrix of its non-zero entries",
             Self::NotANumber { .. } => "put zero where there is no pair",
-            Self::NoPairs(_) => {
-                "write pairs as natural numbers, or a square matrix with 1 for a pair and 0 for none"
-            }
             Self::NoMatrix { .. } => {
-                "save the adjacency matrix, or the pairs as integers in two columns"
+                "save the adjacency matrix, or write pairs as text, one a line"
             }
             Self::Asymmetric { .. } => {
                 "if the direction of pairs does not matter, fill in the other triangle: save A ~= 0 | \

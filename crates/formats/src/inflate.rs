@@ -1,15 +1,11 @@
-//! Compressed files: gzip, bzip2, xz and Zstandard, unpacked within limits, so that a small file does
-//! not fill the machine.
+//! Compressed files: gzip and bzip2, unpacked within limits, so that a small file does not fill the machine.
 
 use std::cell::Cell;
-use std::io::{BufRead, BufReader, Error, ErrorKind, Read};
+use std::io::{Error, ErrorKind, Read};
 use std::rc::Rc;
 
 use bzip2::read::MultiBzDecoder;
 use flate2::read::MultiGzDecoder;
-use lzma_rust2::XzReader;
-use ruzstd::decoding::errors::{FrameDecoderError, ReadFrameHeaderError};
-use ruzstd::decoding::{BlockDecodingStrategy, FrameDecoder};
 
 /// More than that is not inflated from one file.
 const LIMIT: u64 = 64 << 30;
@@ -18,18 +14,11 @@ const ALWAYS: u64 = 256 << 20;
 /// Beyond [`ALWAYS`], at most this times its size: edge lists are 3 to 20 times as long as their
 /// gzip files.
 const RATIO: u64 = 200;
-/// The most memory that unpacking takes, which a file may ask for in its first bytes: four times
-/// what `xz -9` asks for, and as much as `zstd` takes unless it is told otherwise.
-const MEMORY: u64 = 256 << 20;
-const WINDOW: u64 = 128 << 20;
-
 /// How a file is compressed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Compression {
     Gzip,
     Bzip2,
-    Xz,
-    Zstandard,
 }
 
 impl Compression {
@@ -40,11 +29,6 @@ impl Compression {
             // The first block, or the end of a file without any.
             [b'B', b'Z', b'h', b'1'..=b'9', b'1', b'A', b'Y', ..]
             | [b'B', b'Z', b'h', b'1'..=b'9', 0x17, b'r', b'E', ..] => Some(Self::Bzip2),
-            [0xfd, b'7', b'z', b'X', b'Z', 0, ..] => Some(Self::Xz),
-            // Frames of data, and frames to be skipped, with which some begin.
-            [0x28, 0xb5, 0x2f, 0xfd, ..] | [0x50..=0x5f, 0x2a, 0x4d, 0x18, ..] => {
-                Some(Self::Zstandard)
-            }
             _ => None,
         }
     }
@@ -53,8 +37,6 @@ impl Compression {
         match self {
             Self::Gzip => "gzip",
             Self::Bzip2 => "bzip2",
-            Self::Xz => "xz",
-            Self::Zstandard => "Zstandard",
         }
     }
 }
@@ -72,9 +54,6 @@ pub enum Inflated {
         ALWAYS >> 20
     )]
     Ratio,
-    /// It cannot be unpacked in little memory.
-    #[error("unpacking the compressed data takes more than {} MiB of memory", WINDOW >> 20)]
-    Memory,
 }
 
 impl Inflated {
@@ -145,12 +124,6 @@ impl Inflater {
             input: match compression {
                 Compression::Gzip => Box::new(MultiGzDecoder::new(input)),
                 Compression::Bzip2 => Box::new(MultiBzDecoder::new(input)),
-                Compression::Xz => {
-                    let memory = (MEMORY >> 10) as u32;
-                    let input = BufReader::new(input);
-                    Box::new(XzReader::new_mem_limit(input, true, memory))
-                }
-                Compression::Zstandard => Box::new(Frames::new(BufReader::new(input))),
             },
             progress,
             inflated: 0,
@@ -162,7 +135,6 @@ impl Inflater {
         match error.kind() {
             _ if self.progress.failed.get() => error,
             ErrorKind::Interrupted => error,
-            ErrorKind::OutOfMemory => Error::other(Inflated::Memory),
             kind => Error::new(kind, Damaged(error)),
         }
     }
@@ -177,90 +149,6 @@ impl Read for Inflater {
         self.inflated += got as u64;
         Inflated::check(self.inflated, self.progress.read.get()).map_err(Error::other)?;
         Ok(got)
-    }
-}
-
-/// The frames of a Zstandard file, one after another.
-struct Frames<R> {
-    source: R,
-    decoder: FrameDecoder,
-    /// A frame has begun, and not all of it is given.
-    within: bool,
-}
-
-impl<R: BufRead> Frames<R> {
-    fn new(source: R) -> Self {
-        let mut decoder = FrameDecoder::new();
-        decoder.set_max_window_size(WINDOW);
-        Self {
-            source,
-            decoder,
-            within: false,
-        }
-    }
-
-    /// Begins the next frame, or skips one that has no data.
-    fn begin(&mut self) -> std::io::Result<()> {
-        match self.decoder.reset(&mut self.source) {
-            Ok(()) => self.within = true,
-            Err(FrameDecoderError::ReadFrameHeaderError(ReadFrameHeaderError::SkipFrame {
-                length,
-                ..
-            })) => {
-                let mut skipped = self.source.by_ref().take(length.into());
-                if std::io::copy(&mut skipped, &mut std::io::sink())? < length.into() {
-                    return Err(ErrorKind::UnexpectedEof.into());
-                }
-            }
-            Err(error @ FrameDecoderError::WindowSizeTooBig { .. }) => {
-                return Err(Error::new(ErrorKind::OutOfMemory, error));
-            }
-            Err(_) => return Err(self.invalid()),
-        }
-        Ok(())
-    }
-
-    /// Why the data cannot be unpacked, in plain words.
-    fn invalid(&mut self) -> Error {
-        match self.source.fill_buf() {
-            Ok([]) => Error::new(ErrorKind::UnexpectedEof, "they end early"),
-            Ok(_) => Error::new(ErrorKind::InvalidData, "no Zstandard data"),
-            Err(error) => error,
-        }
-    }
-
-    /// What follows the data of a frame is their checksum.
-    fn end(&mut self) -> std::io::Result<()> {
-        self.within = false;
-        let promised = self.decoder.get_checksum_from_data();
-        if promised.is_some() && promised != self.decoder.get_calculated_checksum() {
-            return Err(Error::new(ErrorKind::InvalidData, "wrong checksum"));
-        }
-        Ok(())
-    }
-}
-
-impl<R: BufRead> Read for Frames<R> {
-    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
-        loop {
-            if !self.within {
-                if self.source.fill_buf()?.is_empty() {
-                    return Ok(0);
-                }
-                self.begin()?;
-                continue;
-            }
-            while self.decoder.can_collect() == 0 && !self.decoder.is_finished() {
-                let one = BlockDecodingStrategy::UptoBlocks(1);
-                if self.decoder.decode_blocks(&mut self.source, one).is_err() {
-                    return Err(self.invalid());
-                }
-            }
-            match self.decoder.read(buffer)? {
-                0 => self.end()?,
-                got => return Ok(got),
-            }
-        }
     }
 }
 
@@ -279,35 +167,14 @@ mod tests {
         encoder.finish().unwrap()
     }
 
-    /// What the programs `bzip2`, `xz` and `zstd` make of `1 2\n`, and of `2 3\n`.
-    const PACKED: [(Compression, [&[u8]; 2]); 3] = [
-        (
-            Compression::Bzip2,
-            [
-                include_bytes!("samples/1.bz2"),
-                include_bytes!("samples/2.bz2"),
-            ],
-        ),
-        (
-            Compression::Xz,
-            [
-                include_bytes!("samples/1.xz"),
-                include_bytes!("samples/2.xz"),
-            ],
-        ),
-        (
-            Compression::Zstandard,
-            [
-                include_bytes!("samples/1.zst"),
-                include_bytes!("samples/2.zst"),
-            ],
-        ),
-    ];
-
-    fn members() -> Vec<(Compression, [Vec<u8>; 2])> {
+    /// `1 2\n`, and `2 3\n`; what the program `bzip2` makes of them.
+    fn members() -> [(Compression, [Vec<u8>; 2]); 2] {
         let gzip = [deflated(&b"1 2\n"[..]), deflated(&b"2 3\n"[..])];
-        let packed = PACKED.map(|(compression, both)| (compression, both.map(<[u8]>::to_vec)));
-        [vec![(Compression::Gzip, gzip)], packed.to_vec()].concat()
+        let bzip2 = [
+            include_bytes!("samples/1.bz2").to_vec(),
+            include_bytes!("samples/2.bz2").to_vec(),
+        ];
+        [(Compression::Gzip, gzip), (Compression::Bzip2, bzip2)]
     }
 
     fn inflated(bytes: Vec<u8>, compression: Compression) -> std::io::Result<String> {
@@ -341,18 +208,6 @@ mod tests {
                 }
             }
         }
-    }
-
-    /// A Zstandard frame that is to be skipped, and one that asks for a window of gigabytes.
-    #[test]
-    fn frames_are_skipped_and_large_windows_refused() {
-        let frame = PACKED[2].1[0];
-        let skipped = [b"\x53\x2a\x4d\x18\x02\0\0\0ab", frame].concat();
-        assert_eq!(Compression::of(&skipped), Some(Compression::Zstandard));
-        assert_eq!(inflated(skipped, Compression::Zstandard).unwrap(), "1 2\n");
-        let window = b"\x28\xb5\x2f\xfd\x00\xa8\x01\x00\x00".to_vec();
-        let error = inflated(window, Compression::Zstandard).unwrap_err();
-        assert_eq!(error.downcast::<Inflated>().unwrap(), Inflated::Memory);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 //! Format by NIST, "The Matrix Market Exchange Formats": a line that says what the matrix is,
 //! comments, a line with the sizes, and the entries. Of the format `coordinate` an entry a line: row
 //! and column, counted from 1, and its value unless only the pattern is given. Of the format `array`
-//! all values, column by column. Of a symmetric or skew-symmetric matrix one triangle is enough.
+//! all values, column by column. Of a symmetric matrix one triangle is enough.
 //!
 //! What makes a graph of a matrix is in `matrix`; nodes are numbered as rows.
 
@@ -13,7 +13,7 @@ use crate::edge_list::columns::ListOptions;
 use crate::edge_list::fields::is_number;
 use crate::edge_list::text;
 use crate::error::{Fault, Place, Problem};
-use crate::matrix::{self, Entry, are_pairs};
+use crate::matrix::{self, Entry};
 use crate::read_as::Parsed;
 
 /// What every file begins with; upper and lower case are the same.
@@ -34,7 +34,8 @@ struct Kind {
     /// All values are there, and no places.
     array: bool,
     values: Values,
-    symmetry: Symmetry,
+    /// One triangle says what is in the other.
+    symmetric: bool,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -44,20 +45,12 @@ enum Values {
     Real,
 }
 
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Symmetry {
-    General,
-    Symmetric,
-    /// The other triangle has the opposite signs.
-    Skew,
-}
-
 /// The graph of an adjacency matrix, and notes about what was merged or ignored.
 /// O(bytes + m log d) for largest degree d.
 ///
 /// # Errors
-/// With the number of the line: what is not a matrix, pattern, integer or real, symmetric,
-/// skew-symmetric or general, square; an entry out of range; NaN. Without: a pattern that is not
+/// With the number of the line: what is not a matrix, pattern, integer or real, symmetric
+/// or general, square; an entry out of range; NaN. Without: a pattern that is not
 /// symmetric with a zero diagonal, fewer or more entries than promised.
 pub fn read(input: impl Read) -> Result<Parsed, Fault> {
     read_with(input, &ListOptions::default())
@@ -97,11 +90,10 @@ struct File {
     next: (u32, u32),
 }
 
-/// Rows, columns, and how many entries are promised.
+/// Rows, as many as columns, and how many entries are promised.
 #[derive(Clone, Copy)]
 struct Size {
-    rows: u32,
-    columns: u32,
+    nodes: u32,
     entries: u64,
 }
 
@@ -124,7 +116,6 @@ impl File {
         };
         let Some(size) = self.size else {
             self.size = Some(kind.sizes(first, words)?);
-            self.next = (u32::from(kind.symmetry == Symmetry::Skew), 0);
             return Ok(());
         };
         self.seen += 1;
@@ -137,9 +128,9 @@ impl File {
         let (row, column) = if kind.array {
             self.next
         } else {
-            let row = place(first, size.rows)?;
+            let row = place(first, size.nodes)?;
             match words.next() {
-                Some(word) => (row, place(word, size.columns)?),
+                Some(word) => (row, place(word, size.nodes)?),
                 None => return Err(said("the entry has no column".into())),
             }
         };
@@ -164,9 +155,7 @@ impl File {
             }
         }
         self.entries.push((row, column, value));
-        if kind.symmetry != Symmetry::General && row != column {
-            let skew = kind.symmetry == Symmetry::Skew;
-            let value = if skew { -value } else { value };
+        if kind.symmetric && row != column {
             self.entries.push((column, row, value));
         }
         Ok(())
@@ -183,18 +172,11 @@ impl File {
                 "{promised} entries are promised, and {seen} are there"
             )));
         }
-        let (mut parsed, again) = if size.rows == size.columns {
-            matrix::graph(size.rows, self.entries, options)?
-        } else {
-            (matrix::list(size.rows, &self.entries, options)?, 0)
-        };
+        let (mut parsed, again) = matrix::graph(size.nodes, self.entries, options)?;
         parsed.read.format = "MatrixMarket matrix".into();
-        if size.rows == size.columns {
-            // Of a symmetric matrix both triangles were filled in.
-            let symmetric = kind.symmetry != Symmetry::General;
-            parsed.read.merged = if symmetric { again / 2 } else { again };
-            parsed.notes.extend(crate::merged(parsed.read.merged));
-        }
+        // Of a symmetric matrix both triangles were filled in.
+        parsed.read.merged = if kind.symmetric { again / 2 } else { again };
+        parsed.notes.extend(crate::merged(parsed.read.merged));
         Ok(parsed)
     }
 }
@@ -236,16 +218,15 @@ impl Kind {
             "real" | "double" => Values::Real,
             _ => return refused("entries that are", 3),
         };
-        let symmetry = match word(4) {
-            "symmetric" => Symmetry::Symmetric,
-            "skew-symmetric" => Symmetry::Skew,
-            "general" => Symmetry::General,
+        let symmetric = match word(4) {
+            "symmetric" => true,
+            "general" => false,
             _ => return refused("a matrix that is", 4),
         };
         Ok(Self {
             array,
             values,
-            symmetry,
+            symmetric,
         })
     }
 
@@ -272,37 +253,25 @@ impl Kind {
                 return Err(said(format!("the line with the sizes holds {what}")));
             }
         };
-        let (Ok(height), Ok(width)) = (u32::try_from(rows), u32::try_from(columns)) else {
+        let (Ok(nodes), Ok(_)) = (u32::try_from(rows), u32::try_from(columns)) else {
             return Err(Problem::TooManyNodes);
         };
-        let is_list =
-            self.array && self.symmetry == Symmetry::General && are_pairs([height, width]);
-        if rows != columns && !is_list {
+        if rows != columns {
             return Err(Problem::NotSquare(format!("{rows} x {columns}")));
         }
-        let entries = entries.unwrap_or(match self.symmetry {
-            Symmetry::General => rows * columns,
-            Symmetry::Symmetric => rows * (rows + 1) / 2,
-            Symmetry::Skew => rows * rows.saturating_sub(1) / 2,
+        let entries = entries.unwrap_or(match self.symmetric {
+            false => rows * columns,
+            true => rows * (rows + 1) / 2,
         });
-        Ok(Size {
-            rows: height,
-            columns: width,
-            entries,
-        })
+        Ok(Size { nodes, entries })
     }
 
     /// The place behind that of a value of an array, column by column, from 0.
     fn behind(self, (row, column): (u32, u32), size: Size) -> (u32, u32) {
-        if row + 1 < size.rows {
+        if row + 1 < size.nodes {
             return (row + 1, column);
         }
-        let first = match self.symmetry {
-            Symmetry::General => 0,
-            Symmetry::Symmetric => column + 1,
-            Symmetry::Skew => column + 2,
-        };
-        (first, column + 1)
+        (if self.symmetric { column + 1 } else { 0 }, column + 1)
     }
 
     /// A value; that of a pattern is 1.
@@ -366,9 +335,9 @@ mod tests {
         let note = "1 pair is given again, the same or reversed, and merged";
         assert_eq!(graph(&text), (4, triangle.clone(), vec![note.into()]));
         let text = format!(
-            "{GENERAL}3 3 9\n1 2 .5\n2 1 -1e3\n3 1 1e4\n1 3 1e-3\n2 3 7\n3 2 8\n1 1 0\n2 2 -0.0e5\n3 3 +.0"
+            "{GENERAL}3 3 9\n1 2 .5\n2 1 1e3\n3 1 1e4\n1 3 1e-3\n2 3 7\n3 2 8\n1 1 0\n2 2 -0.0e5\n3 3 +.0"
         );
-        let values = "entries are real numbers from -1000 to 10000 (counts, weights?): each that is \
+        let values = "entries are real numbers from 0.001 to 10000 (counts, weights?): each that is \
                       not zero is a pair";
         let note = "explicit zeros are no pairs: 3 entries";
         assert_eq!(
@@ -378,26 +347,20 @@ mod tests {
         assert_eq!(graph(&format!("{GENERAL}2 2 0\n")), (2, vec![], vec![]));
     }
 
-    /// All values, those of the lower triangle, and those below the diagonal.
+    /// All values, and those of the lower triangle.
     #[test]
     fn arrays() {
         let path = vec![(0, 1), (1, 2)];
         for (symmetry, values) in [
             ("general", "0 1 0 1 0 1 0 1 0"),
             ("symmetric", "0 1 0 0 1 0"),
-            ("skew-symmetric", "1 0 1"),
         ] {
             let values = values.replace(' ', "\n");
             let text = format!("%%MatrixMarket matrix array integer {symmetry}\n3 3\n{values}\n");
             let (nodes, edges, notes) = graph(&text);
             assert_eq!((nodes, edges), (3, path.clone()), "{symmetry}");
-            // The other triangle has opposite signs.
-            assert_eq!(notes.len(), usize::from(symmetry.starts_with("skew")));
+            assert_eq!(notes, [""; 0]);
         }
-        let text = "%%MatrixMarket matrix array integer general\n3 2\n1\n2\n3\n2\n3\n1\n";
-        let note = "the rows are pairs: two numbers of cameras each";
-        let expected = (3, vec![(0, 1), (0, 2), (1, 2)], vec![note.into()]);
-        assert_eq!(graph(text), expected);
     }
 
     #[test]
@@ -417,6 +380,10 @@ mod tests {
                 "a.mtx:1: MatrixMarket: a matrix that is `hermitian`",
             ),
             (header("coordinate real"), "a matrix that is ``"),
+            (
+                header("coordinate real skew-symmetric"),
+                "`skew-symmetric` is not read",
+            ),
             (
                 header("coordinate integer general"),
                 "not symmetric: (2, 1) is non-zero, (1, 2) is zero",

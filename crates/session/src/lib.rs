@@ -9,12 +9,10 @@ mod bar;
 pub mod exit;
 mod limits;
 pub mod outputs;
-mod progress;
 mod session;
 
 pub use limits::{MemoryLimit, RunLimits, TimeLimit, default_memory_limit};
 pub use outputs::Outputs;
-pub use progress::{Progress, Told};
 pub use session::Session;
 pub use viewcert::wording::printable;
 

@@ -15,7 +15,6 @@ use std::fs::{self, File, Permissions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard};
-use tempfile::{NamedTempFile, PersistError};
 use viewcert::wording::spelt;
 
 /// The outputs of a run: its temporary files and folders, which are made, and take their names, while
@@ -64,32 +63,9 @@ impl Outputs {
             match locate(path)? {
                 Place::Standard => through(io::stdout().lock(), write)?,
                 Place::Through(path) => through(File::options().write(true).open(path)?, write)?,
-                Place::File(path, permissions) => self.replace(&path, permissions, write)?,
+                Place::File(path, permissions) => self.complete(&path, permissions, write)?,
             }
             Ok(())
-        };
-        attempt().with_context(|| format!("{} was not written", path.display()))
-    }
-
-    /// Writes a file if none of that name is there yet; says whether there was none. Of several who do
-    /// so at the same time one is first.
-    ///
-    /// # Errors
-    /// As of [`Self::write`].
-    pub fn write_new(
-        &self,
-        path: &Path,
-        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    ) -> Result<bool> {
-        let attempt = || -> Result<bool> {
-            let was_there = |error: &anyhow::Error| {
-                let error = error.downcast_ref::<io::Error>();
-                error.is_some_and(|error| error.kind() == io::ErrorKind::AlreadyExists)
-            };
-            match self.complete(path, None, write, |file| file.persist_noclobber(path)) {
-                Err(error) if was_there(&error) => Ok(false),
-                written => written.map(|()| true),
-            }
         };
         attempt().with_context(|| format!("{} was not written", path.display()))
     }
@@ -109,22 +85,12 @@ impl Outputs {
         pending
     }
 
-    fn replace(
-        &self,
-        path: &Path,
-        permissions: Option<Permissions>,
-        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    ) -> Result<()> {
-        self.complete(path, permissions, write, |file| file.persist(path))
-    }
-
     /// Writes a temporary file beside a path, and lets it take its name.
     fn complete(
         &self,
         path: &Path,
         permissions: Option<Permissions>,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-        persist: impl FnOnce(NamedTempFile) -> Result<File, PersistError>,
     ) -> Result<()> {
         let mut builder = tempfile::Builder::new();
         #[cfg(unix)]
@@ -154,7 +120,7 @@ impl Outputs {
         let written = written();
         let mut pending = unpoisoned(&self.pending);
         pending.remove(&temporary);
-        persist(written?).map_err(|failed| failed.error)?;
+        written?.persist(path).map_err(|failed| failed.error)?;
         Ok(())
     }
 
@@ -462,13 +428,6 @@ mod tests {
         });
         assert!(done.is_err());
         assert_eq!(count(), 0);
-        let new = |text: &[u8]| outputs.write_new(&path, |out| out.write_all(text)).unwrap();
-        assert!(new(b"first"));
-        assert!(!new(b"second"));
-        assert_eq!(
-            (std::fs::read(&path).unwrap(), count()),
-            (b"first".to_vec(), 1)
-        );
         outputs.write(&path, |out| out.write_all(b"whole")).unwrap();
         assert_eq!(std::fs::read(&path).unwrap(), b"whole");
     }

@@ -12,7 +12,6 @@ use crate::exit::{
 };
 use crate::limits::{RunLimits, resident_memory};
 use crate::outputs::Outputs;
-use crate::progress::Progress;
 use crate::{complain, unpoisoned};
 use anyhow::{Context, Error, Result};
 use std::io::{IsTerminal, Write};
@@ -171,11 +170,6 @@ impl Session {
             bar.say(what.clone());
         }
         self.doing(what);
-    }
-
-    /// Progress of many things, out of `total`, if that is known, of `what`: "candidates".
-    pub fn progress(&self, what: &'static str, total: Option<u64>) -> Progress {
-        Progress::new(self.0.program, what, total)
     }
 
     /// Takes the bar off the terminal: something else is to be written.

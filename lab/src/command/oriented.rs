@@ -3,6 +3,7 @@
 
 use super::sizes;
 use crate::oriented::tally::{Tally, tally};
+use crate::progress::Progress;
 use crate::solutions::Source;
 use anyhow::{Context, Result};
 use clap::Args;
@@ -38,7 +39,7 @@ pub fn run(session: &Session, arguments: &Arguments) -> Result<u8> {
     )?;
     for nodes in arguments.nodes.clone() {
         let graphs = Source::FewestEdges.graphs(nodes)?;
-        let progress = session.progress("graphs", Some(graphs.len() as u64));
+        let progress = Progress::new("graphs", Some(graphs.len() as u64));
         let wish = (arguments.places, arguments.seed);
         let found = tally(&graphs, &options, wish, |more| progress.done(more))?;
         progress.finish();

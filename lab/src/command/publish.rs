@@ -7,6 +7,7 @@
 use super::census;
 use crate::catalog_page;
 use crate::catalog_page::Drawing;
+use crate::progress::Progress;
 use anyhow::{Context, Result, ensure};
 use clap::Args;
 use flate2::{Compression, GzBuilder};
@@ -29,7 +30,6 @@ use viewcert_lab_catalog::candidates::to_graph;
 use viewcert_lab_catalog::canonical::canonical;
 use viewcert_lab_catalog::multigraph::Multigraph;
 use viewcert_lab_catalog::{Candidates, least_edges};
-use viewcert_session::Progress;
 use viewcert_session::Session;
 use viewcert_session::exit::GOOD;
 
@@ -77,7 +77,7 @@ pub fn run(session: &Session, arguments: &Arguments) -> Result<u8> {
         "{}: there is a README.md that is not of a catalog, and would be overwritten; name another folder",
         folder.display()
     );
-    let progress = session.progress("candidates", None);
+    let progress = Progress::new("candidates", None);
     let mut drawings = Vec::new();
     let mut counts: Vec<(usize, Counts)> = Vec::new();
     let mut files = Files {

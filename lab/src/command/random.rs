@@ -1,6 +1,7 @@
 //! `viewcert-lab random`: connected random graphs, the paper's Table 2.
 
 use crate::plot::{Point, plot};
+use crate::progress::Progress;
 use anyhow::{Context, Result, anyhow};
 use clap::Args;
 use std::io::Write;
@@ -11,7 +12,6 @@ use viewcert_catalog::mine::Entry;
 use viewcert_formats::csv;
 use viewcert_lab_catalog::random;
 use viewcert_lab_catalog::random::{Density, Sampler, fisher};
-use viewcert_session::Progress;
 use viewcert_session::Session;
 use viewcert_session::exit::GOOD;
 use viewcert_session::outputs;
@@ -83,7 +83,7 @@ pub fn run(session: &Session, arguments: &Arguments) -> Result<u8> {
     let mut columns = Vec::new();
     let mut rows = Vec::new();
     let samples = u64::from(arguments.samples);
-    let progress = session.progress("graphs", Some(samples * arguments.density.len() as u64));
+    let progress = Progress::new("graphs", Some(samples * arguments.density.len() as u64));
     for density in &arguments.density {
         let keep = csv.is_some().then_some(&mut rows);
         columns.push(at_density(arguments, density, &options, &progress, keep)?);

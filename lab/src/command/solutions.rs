@@ -1,6 +1,7 @@
 //! `viewcert-lab solutions`: how many solutions the graphs of a size have.
 
 use super::sizes;
+use crate::progress::Progress;
 use crate::solutions::{Bounds, Source, Tally, tally};
 use anyhow::{Context, Result};
 use clap::Args;
@@ -48,7 +49,7 @@ pub fn run(session: &Session, arguments: &Arguments) -> Result<u8> {
     for nodes in arguments.nodes.clone() {
         let start = Instant::now();
         let graphs = source.graphs(nodes)?;
-        let progress = session.progress("graphs", Some(graphs.len() as u64));
+        let progress = Progress::new("graphs", Some(graphs.len() as u64));
         let found = tally(&graphs, &options, |more| progress.done(more))?;
         progress.finish();
         writeln!(

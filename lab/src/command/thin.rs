@@ -2,6 +2,7 @@
 //! how many solutions they have.
 
 use super::sizes;
+use crate::progress::Progress;
 use crate::thinned::{draw_size, piece, thinned};
 use anyhow::{Context, Result};
 use clap::Args;
@@ -103,7 +104,7 @@ fn of_graph(
         .seed(arguments.seed)
         .question(Question::with_solutions(CountSolutions::Full))
         .watch(session.watch());
-    let progress = session.progress("pieces", Some(u64::from(arguments.pieces)));
+    let progress = Progress::new("pieces", Some(u64::from(arguments.pieces)));
     let rows: Vec<Option<Row>> = (0..arguments.pieces)
         .into_par_iter()
         .map(|sample| {

@@ -33,7 +33,6 @@ _PHRASES: Tuple[Tuple[str, Union[str, Callable[[Match[str]], str]]], ...] = (
     (r"`colmap feature_extractor [^`]*`", "`pycolmap.extract_features(FILE, 'images')`"),
     (r"`colmap exhaustive_matcher [^`]*`", "`pycolmap.match_exhaustive(FILE)`"),
     (r"`colmap geometric_verifier [^`]*`, or in Python ", ""),
-    (r"`unzstd --memory=(\w+)`", r"`unzstd` with \1 of memory"),
     (r"`cargo install[^`]*`", "`pip install ./python`"),
     (r"with --given (\S+), which takes", r"in the program `verify` (given \1), which takes"),
     (r"--intrinsics FILE|--intrinsics", "`viewcert.intrinsics`"),

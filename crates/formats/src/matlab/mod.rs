@@ -2,9 +2,9 @@
 //!
 //! Format by The MathWorks, "MAT-File Format": a header of 128 bytes, then data
 //! elements, each a type, a length and that many bytes; a variable is an
-//! element that holds further ones, alone or deflated. Both byte orders are
-//! read, sparse and full matrices of every real numeric class, and every
-//! integer type in which MATLAB stores numbers compactly.
+//! element that holds further ones, alone or deflated. Read are sparse and full
+//! matrices of every real numeric class, and every integer type in which MATLAB
+//! stores numbers compactly, in the byte order of all machines of today.
 //!
 //! What makes a graph of a matrix is in `matrix`; nodes are numbered as rows.
 //!
@@ -20,7 +20,7 @@ use flate2::bufread::ZlibDecoder;
 
 use crate::edge_list::columns::ListOptions;
 use crate::error::{Fault, Place, Problem};
-use crate::matrix::{self, Entry, are_pairs};
+use crate::matrix::{self, Entry};
 use crate::read_as::Parsed;
 use viewcert::graph::Graph;
 
@@ -69,17 +69,9 @@ pub fn is_matlab(head: &[u8]) -> bool {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Version {
-    Four,
-    /// With the byte order.
-    Five(ByteOrder),
+    Five,
+    BigEndian,
     Hdf5,
-}
-
-/// In which order the file stores the bytes of a number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum ByteOrder {
-    Little,
-    Big,
 }
 
 fn version(head: &[u8]) -> Option<Version> {
@@ -87,42 +79,12 @@ fn version(head: &[u8]) -> Option<Version> {
         return Some(Version::Hdf5);
     }
     match head.get(124..HEADER_LENGTH) {
-        Some([_, 1, b'I', b'M']) => Some(Version::Five(ByteOrder::Little)),
-        Some([1, _, b'M', b'I']) => Some(Version::Five(ByteOrder::Big)),
+        Some([_, 1, b'I', b'M']) => Some(Version::Five),
+        Some([1, _, b'M', b'I']) => Some(Version::BigEndian),
         Some([_, 2, b'I', b'M'] | [2, _, b'M', b'I']) => Some(Version::Hdf5),
-        _ if head.starts_with(b"MATLAB 5.0 MAT-file") => Some(Version::Five(ByteOrder::Little)),
-        _ => is_version_four(head).then_some(Version::Four),
-    }
-}
-
-/// Version 4 has no signature: its header is five integers, the first of which
-/// is a code of decimal digits, the fourth a flag, the fifth a short length.
-fn is_version_four(head: &[u8]) -> bool {
-    let Some(words) = head.first_chunk::<20>() else {
-        return false;
-    };
-    let plausible = |number: fn([u8; 4]) -> u32| {
-        let mut fields = words.as_chunks::<4>().0.iter().map(|&bytes| number(bytes));
-        let mut next = || fields.next().unwrap_or(u32::MAX);
-        let (code, rows, columns, imaginary, name) = (next(), next(), next(), next(), next());
-        let digits = [code / 1000, code / 100 % 10, code / 10 % 10, code % 10];
-        digits[0] <= 4
-            && digits[1] == 0
-            && digits[2] <= 5
-            && digits[3] <= 2
-            && rows.max(columns) <= i32::MAX as u32
-            && imaginary <= 1
-            && (2..=64).contains(&name)
-    };
-    plausible(u32::from_le_bytes) || plausible(u32::from_be_bytes)
-}
-
-impl ByteOrder {
-    fn u32(self, bytes: [u8; 4]) -> u32 {
-        match self {
-            Self::Little => u32::from_le_bytes(bytes),
-            Self::Big => u32::from_be_bytes(bytes),
-        }
+        _ => head
+            .starts_with(b"MATLAB 5.0 MAT-file")
+            .then_some(Version::Five),
     }
 }
 
@@ -136,11 +98,11 @@ fn cut_off() -> Problem {
 
 /// The next element of `rest`: its type and its bytes. Small ones hold these in the tag; deflated ones are
 /// not padded.
-fn element<'a>(rest: &mut &'a [u8], order: ByteOrder) -> Result<(u32, &'a [u8]), Problem> {
+fn element<'a>(rest: &mut &'a [u8]) -> Result<(u32, &'a [u8]), Problem> {
     let whole = *rest;
     let (tag, body) = whole.split_first_chunk::<8>().ok_or_else(cut_off)?;
     let [a, b, c, d, length @ ..] = *tag;
-    let kind = order.u32([a, b, c, d]);
+    let kind = u32::from_le_bytes([a, b, c, d]);
     let small = (kind >> 16) as usize;
     if small > 0 {
         *rest = body;
@@ -148,7 +110,7 @@ fn element<'a>(rest: &mut &'a [u8], order: ByteOrder) -> Result<(u32, &'a [u8]),
         let data = data.ok_or_else(|| malformed("a small element is longer than four bytes"))?;
         return Ok((kind & 0xffff, data));
     }
-    let length = order.u32(length) as usize;
+    let length = u32::from_le_bytes(length) as usize;
     let data = body.get(..length).ok_or_else(|| {
         let there = body.len();
         Problem::Truncated(format!(
@@ -170,19 +132,17 @@ struct Variable<'a> {
     flags: u32,
     /// Empty for opaque objects.
     dimensions: Vec<u32>,
-    order: ByteOrder,
     kind: u32,
     element: &'a [u8],
 }
 
 impl<'a> Variable<'a> {
-    fn new(kind: u32, element: &'a [u8], order: ByteOrder) -> Result<Self, Problem> {
+    fn new(kind: u32, element: &'a [u8]) -> Result<Self, Problem> {
         let mut variable = Self {
             name: String::new(),
             class: 0,
             flags: 0,
             dimensions: Vec::new(),
-            order,
             kind,
             element,
         };
@@ -207,10 +167,10 @@ impl<'a> Variable<'a> {
             Ok(bytes)
         };
         let [a, b, c, d, length @ ..] = *inflated(8)?.first_chunk::<8>().ok_or_else(cut_off)?;
-        if self.order.u32([a, b, c, d]) != MATRIX {
+        if u32::from_le_bytes([a, b, c, d]) != MATRIX {
             return Err(malformed("a deflated element is not a variable"));
         }
-        let length = u64::from(self.order.u32(length));
+        let length = u64::from(u32::from_le_bytes(length));
         let available = self.element.len() as u64;
         if length > DEFLATE_LIMIT * available {
             return Err(Problem::Truncated(format!(
@@ -230,12 +190,11 @@ impl<'a> Variable<'a> {
 
     /// Takes in what stands before the values.
     fn describe(&mut self, rest: &mut &[u8]) -> Result<(), Problem> {
-        let order = self.order;
         let words = |bytes: &[u8]| -> Vec<u32> {
             let (words, _) = bytes.as_chunks();
-            words.iter().map(|&word| order.u32(word)).collect()
+            words.iter().map(|&word| u32::from_le_bytes(word)).collect()
         };
-        let [flags, _] = words(element(rest, order)?.1)[..] else {
+        let [flags, _] = words(element(rest)?.1)[..] else {
             return Err(malformed("the flags of a variable are not two integers"));
         };
         (self.flags, self.class) = (flags, flags as u8);
@@ -246,13 +205,13 @@ impl<'a> Variable<'a> {
             )));
         }
         if self.class != OPAQUE {
-            self.dimensions = words(element(rest, order)?.1);
+            self.dimensions = words(element(rest)?.1);
             let dimensions = &self.dimensions;
             if dimensions.len() < 2 || dimensions.iter().any(|&d| d > i32::MAX as u32) {
                 return Err(malformed("a variable without proper dimensions"));
             }
         }
-        self.name = String::from_utf8_lossy(element(rest, order)?.1).into_owned();
+        self.name = String::from_utf8_lossy(element(rest)?.1).into_owned();
         Ok(())
     }
 
@@ -273,11 +232,6 @@ impl<'a> Variable<'a> {
         let numeric = (SPARSE..=LAST_NUMERIC).contains(&self.class);
         let shape = self.dimensions.first_chunk().copied();
         shape.filter(|_| numeric && self.dimensions.len() == 2)
-    }
-
-    /// Whether it lists pairs in its rows.
-    fn is_list(&self) -> bool {
-        self.class != SPARSE && self.numeric_shape().is_some_and(are_pairs)
     }
 
     fn is_square(&self) -> bool {
@@ -380,8 +334,7 @@ impl<'a> Variable<'a> {
         &self,
         rest: &mut &'r [u8],
     ) -> Result<Box<dyn Iterator<Item = f64> + 'r>, Problem> {
-        let order = self.order;
-        let (kind, bytes) = element(rest, order)?;
+        let (kind, bytes) = element(rest)?;
         macro_rules! numbers {
             ($number:ty) => {{
                 let (numbers, left) = bytes.as_chunks::<{ size_of::<$number>() }>();
@@ -390,10 +343,11 @@ impl<'a> Variable<'a> {
                         "the length of an element is no multiple of its numbers'",
                     ));
                 }
-                Box::new(numbers.iter().map(move |&bytes| match order {
-                    ByteOrder::Little => <$number>::from_le_bytes(bytes) as f64,
-                    ByteOrder::Big => <$number>::from_be_bytes(bytes) as f64,
-                }))
+                Box::new(
+                    numbers
+                        .iter()
+                        .map(|&bytes| <$number>::from_le_bytes(bytes) as f64),
+                )
             }};
         }
         Ok(match kind {
@@ -416,9 +370,8 @@ impl<'a> Variable<'a> {
     }
 }
 
-/// The graph of an adjacency matrix or of two columns of pairs: of the variable named, else of
-/// `A`, else of the only square numeric matrix with more than one row, else of the only one with two
-/// columns. O(bytes + m log m).
+/// The graph of an adjacency matrix: of the variable named, else of `A`, else of the only square
+/// numeric matrix with more than one row. O(bytes + m log m).
 ///
 /// # Errors
 /// No such variable, or no way to choose one; a matrix that is not numeric,
@@ -438,7 +391,6 @@ pub(super) fn read_noting(
     let variables = variables(bytes)?;
     let variable = choose(&variables, name)?;
     let graph = || match variable.numeric_shape() {
-        Some([rows, _]) if variable.is_list() => matrix::list(rows, &variable.entries()?, options),
         Some([rows, _]) if variable.is_square() => {
             matrix::graph(rows, variable.entries()?, options).map(|(parsed, _)| parsed)
         }
@@ -478,12 +430,12 @@ pub fn entries(bytes: &[u8], variable: &str) -> Result<Vec<(u32, u32, f64)>, Fau
 /// All variables of a file, in order; only what they are is read.
 fn variables(bytes: &[u8]) -> Result<Vec<Variable<'_>>, Fault> {
     let fault = |problem| Place::Input.fault(problem);
-    let order = match version(bytes) {
-        Some(Version::Five(order)) => order,
-        Some(Version::Four) => return Err(fault(Problem::MatlabFour)),
+    match version(bytes) {
+        Some(Version::Five) => {}
+        Some(Version::BigEndian) => return Err(fault(Problem::MatlabBigEndian)),
         Some(Version::Hdf5) => return Err(fault(Problem::MatlabHdf5)),
         None => return Err(fault(malformed("this is not a MATLAB file"))),
-    };
+    }
     let mut rest = bytes.get(HEADER_LENGTH..).ok_or_else(|| {
         let there = bytes.len();
         let what = format!("the header takes {HEADER_LENGTH} bytes, the file has {there}");
@@ -492,11 +444,11 @@ fn variables(bytes: &[u8]) -> Result<Vec<Variable<'_>>, Fault> {
     let mut variables = Vec::new();
     let mut names = BTreeSet::new();
     while !rest.is_empty() {
-        let (kind, content) = element(&mut rest, order).map_err(fault)?;
+        let (kind, content) = element(&mut rest).map_err(fault)?;
         if kind != MATRIX && kind != COMPRESSED {
             continue;
         }
-        let variable = Variable::new(kind, content, order).map_err(fault)?;
+        let variable = Variable::new(kind, content).map_err(fault)?;
         if !names.insert(variable.name.clone()) {
             return Err(variable.fault(malformed("there are two variables of this name")));
         }
@@ -529,12 +481,11 @@ fn choose<'v, 'a>(
     // A single number is no adjacency.
     let is_adjacency = |v: &&Variable| v.is_square() && v.dimensions[0] > 1;
     let squares: Vec<_> = variables.iter().filter(is_adjacency).collect();
-    let lists: Vec<_> = variables.iter().filter(|v| v.is_list()).collect();
-    let problem = match (&squares[..], &lists[..]) {
-        ([variable], _) | ([], [variable]) => return Ok(variable),
-        ([], []) => Problem::NoMatrix { present: present() },
+    let problem = match &squares[..] {
+        [variable] => return Ok(variable),
+        [] => Problem::NoMatrix { present: present() },
         _ => Problem::ChooseVariable {
-            candidates: squares.len().max(lists.len()),
+            candidates: squares.len(),
             present: present(),
         },
     };

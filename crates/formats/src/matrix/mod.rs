@@ -3,23 +3,17 @@
 //! In: the entries of a square matrix that are not zero. Out: its graph, with notes about what the entries
 //! were.
 //!
-//! Every entry that is not zero is a pair, whatever its value; only the pattern has to be symmetric.
-//! There are two kinds of matrices of which that is not the meaning, and they are known by their
-//! entries: those of 3 x 3 blocks, of which each belongs to two cameras ([`blocks`]), and tables of
-//! real numbers for all pairs, which are distances or the like and say nothing about pairs.
-//! A matrix of two columns of integers is a list of pairs ([`list`]).
+//! Every entry that is not zero is a pair, whatever its value; only the pattern has to be symmetric. There are
+//! matrices of which that is not the meaning, and they are refused: those of blocks, of which each belongs to two
+//! cameras, as of all fundamental matrices or relative poses, and tables of real numbers for all pairs, which are
+//! distances or the like and say nothing about pairs.
 
 use crate::edge_list::columns::ListOptions;
 use crate::edge_list::decimal::Decimal;
 use crate::error::Problem;
 use crate::read_as::{Parsed, ReadAs};
-use viewcert::graph::{Graph, GraphError, Labels};
+use viewcert::graph::{Adjacency, Graph, GraphError, Labels};
 use viewcert::wording::counted;
-
-mod blocks;
-mod list;
-
-pub(super) use list::{are_pairs, list};
 
 /// Row and column, from 0, and value.
 pub(super) type Entry = (u32, u32, f64);
@@ -28,16 +22,12 @@ pub(super) type Entry = (u32, u32, f64);
 const ISOLATED_LIMIT: u64 = 1 << 24;
 /// What is smaller beside the largest entry may be an error of rounding.
 const ROUNDING: f64 = 1e-12;
-/// Weights are asked for, of what has none.
-const WEIGHTLESS: Problem = Problem::Doubtful {
-    what: "--min-weight: the entries belong to 3 x 3 blocks, one a pair, and are no weights",
-    advice: "leave the option out, or write a matrix of the weights of pairs",
-};
+/// What to do about a matrix that is none of pairs.
+const ONES: &str = "write a matrix with 1 for a pair of cameras and 0 for none";
 /// More entries than any graph has pairs, twice.
 const ENTRY_LIMIT: usize = 2 * i32::MAX as usize;
 
-/// The graph of a square matrix with these entries: of its pattern, or of its blocks; and how many entries
-/// were given again. Those of one place are one entry if they are equal, and otherwise added up, as SciPy
+/// The graph of the pattern of a square matrix with these entries, and how many entries were given again. Those of one place are one entry if they are equal, and otherwise added up, as SciPy
 /// has it. The caller says what was read. O(entries log entries), or O(entries) if they are sorted by
 /// columns.
 ///
@@ -70,19 +60,22 @@ pub(super) fn graph(
     let all = entries.len();
     entries.retain(|entry| entry.2 != 0.0);
     let zeros = all - entries.len();
-    let mut read = ReadAs::default();
-    let (graph, note) = match blocks::read(size, &entries)? {
-        Some(_) if options.min_weight.is_some() => return Err(WEIGHTLESS),
-        Some((graph, note)) => (graph, Some(note)),
-        None => {
-            read.ignored = choose(&mut entries, options);
-            let graph = pattern(size, &entries)?;
-            let note = match options.min_weight {
-                Some(_) => None,
-                None => describe(&graph, &entries)?,
-            };
-            (graph, note)
-        }
+    let (least, most) = range(values(&entries));
+    // Rotations, translations and fundamental matrices have entries of both signs.
+    if least < 0.0 && 0.0 < most {
+        return Err(Problem::Doubtful {
+            what: "some entries are negative, as in blocks of fundamental matrices or poses",
+            advice: ONES,
+        });
+    }
+    let read = ReadAs {
+        ignored: choose(&mut entries, options),
+        ..ReadAs::default()
+    };
+    let graph = pattern(size, &entries)?;
+    let note = match options.min_weight {
+        Some(_) => None,
+        None => describe(&graph, &entries)?,
     };
     let mut notes: Vec<String> = note.into_iter().collect();
     if zeros > 0 {
@@ -183,8 +176,22 @@ fn values(entries: &[Entry]) -> impl Iterator<Item = f64> {
     entries.iter().map(|entry| entry.2)
 }
 
-fn are_integers(entries: &[Entry]) -> bool {
-    values(entries).all(|value| value.fract() == 0.0)
+/// Whether three rows each have the same pairs, none among themselves.
+fn are_threes(graph: &Graph) -> bool {
+    let neighbours = Adjacency::new(graph);
+    let of = |k: u32| neighbours.neighbours(k);
+    let mut firsts = (0..graph.nodes() as u32).step_by(3);
+    graph.nodes() > 3
+        && graph.nodes().is_multiple_of(3)
+        && !graph.edges().is_empty()
+        && firsts.all(|k| {
+            let blocks = of(k).as_chunks::<3>();
+            let is_block = |three: &[u32; 3]| three[0] % 3 == 0 && three[2] == three[0] + 2;
+            blocks.1.is_empty()
+                && blocks.0.iter().all(is_block)
+                && of(k) == of(k + 1)
+                && of(k) == of(k + 2)
+        })
 }
 
 /// A note on entries that say more than that they are there.
@@ -196,16 +203,24 @@ fn describe(graph: &Graph, entries: &[Entry]) -> Result<Option<String>, Problem>
     const FEW: usize = 3;
     let (least, most) = range(values(entries));
     if least >= most {
-        return Ok(blocks::doubt(graph.nodes(), entries));
+        let note = "the rows come in threes with the same pairs (the pattern of a matrix of 3 x 3 blocks?): \
+                    every row is taken for a camera";
+        return Ok(are_threes(graph).then(|| note.to_owned()));
     }
-    let integers = are_integers(entries);
+    let integers = values(entries).all(|value| value.fract() == 0.0);
     let nodes = graph.nodes();
+    if !integers && are_threes(graph) {
+        return Err(Problem::Doubtful {
+            what: "the rows come in threes with the same pairs: blocks of 3 x 3, perhaps",
+            advice: ONES,
+        });
+    }
     if !integers && nodes > FEW && graph.edges().len() == nodes * (nodes - 1) / 2 {
         return Err(Problem::Doubtful {
             what: "every entry off the diagonal is non-zero, and they are no integers: a table \
                    of distances, similarities or weights, which does not say which pairs there \
                    are",
-            advice: "choose the pairs: write a matrix with 1 for a pair and 0 for none",
+            advice: ONES,
         });
     }
     let (smallest, largest) = range(values(entries).map(f64::abs));
@@ -213,7 +228,7 @@ fn describe(graph: &Graph, entries: &[Entry]) -> Result<Option<String>, Problem>
         return Err(Problem::Doubtful {
             what: "some entries are so small beside others that they may be rounding errors, and \
                    no pairs",
-            advice: "write a matrix with 1 for a pair and 0 for none",
+            advice: ONES,
         });
     }
     let what = if integers { "integers" } else { "real numbers" };

@@ -24,166 +24,39 @@ fn refusal(found: Result<Parsed, Problem>) -> String {
     format!("{problem}; {}", problem.remedy())
 }
 
-type Block = [[f64; 3]; 3];
-
-/// The matrix of blocks of these pairs: block (i, j) and, transposed, block (j, i).
-fn of_blocks(cameras: usize, blocks: &[(usize, usize, Block)]) -> Vec<Vec<f64>> {
-    let mut matrix = vec![vec![0.0; 3 * cameras]; 3 * cameras];
-    for &(i, j, block) in blocks {
-        for r in 0..3 {
-            for c in 0..3 {
-                matrix[3 * i + r][3 * j + c] = block[r][c];
-                matrix[3 * j + c][3 * i + r] = block[r][c];
-            }
-        }
-    }
-    matrix
-}
-
-fn read_blocks(matrix: &[Vec<f64>]) -> Result<Parsed, Problem> {
-    read(matrix.len() as u32, |r, c| matrix[r as usize][c as usize])
-}
-
-fn product(a: Block, b: Block) -> Block {
-    std::array::from_fn(|r| std::array::from_fn(|c| (0..3).map(|k| a[r][k] * b[k][c]).sum()))
-}
-
-/// `[t]_x`, so that its product with t is zero.
-fn cross([x, y, z]: [f64; 3]) -> Block {
-    [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]]
-}
-
-/// Five cameras, six pairs: what the matrices of the same pairs are read as.
-const PAIRS: [(usize, usize); 6] = [(0, 1), (1, 2), (0, 2), (2, 3), (3, 4), (2, 4)];
-
-fn assert_five_cameras(matrix: &[Vec<f64>], what: &str) {
-    let Parsed {
-        graph,
-        labels,
-        notes,
-        ..
-    } = read_blocks(matrix).unwrap();
-    let pairs = graph.edges().iter().map(|&(i, j)| (i as usize, j as usize));
-    let mut expected = PAIRS.to_vec();
-    expected.sort_unstable();
-    assert_eq!((graph.nodes(), pairs.collect()), (5, expected));
-    assert_eq!(labels, Labels::Numbers { first: 1 });
-    let note = format!("the matrix consists of blocks of 3 x 3, {what}: 15 rows are 5 cameras");
-    assert_eq!(notes, [note]);
-}
-
-/// The matrix of five cameras with these blocks of their pairs.
-fn of_five(block: &dyn Fn(usize) -> Block) -> Vec<Vec<f64>> {
-    let blocks: Vec<_> = PAIRS
-        .iter()
-        .enumerate()
-        .map(|(k, &(i, j))| (i, j, block(k)))
-        .collect();
-    of_blocks(5, &blocks)
-}
-
-fn essential(k: usize) -> Block {
-    let k = k as f64;
-    let direction = [1.0 + k, 2.0 - k, 0.5 * k + 0.3];
-    product(
-        cross(direction),
-        rotation([1.0, 0.2 * k - 0.3, 0.1, 0.4 - 0.1 * k]),
-    )
-}
-
+/// Blocks of 3 x 3: of essential matrices or rotations, with both signs, and of real numbers.
 #[test]
-fn fundamental_matrices_are_pairs_of_cameras() {
-    let fundamental = "fundamental or essential matrices";
-    assert_five_cameras(&of_five(&essential), fundamental);
-    // In pixels: K^-T E K^-1 with a focal length of 1,500.
-    let calibration = [
-        [1.0 / 1500.0, 0.0, 0.0],
-        [0.0, 1.0 / 1500.0, 0.0],
-        [-0.5, -0.4, 1.0],
-    ];
-    let transposed = [
-        [1.0 / 1500.0, 0.0, -0.5],
-        [0.0, 1.0 / 1500.0, -0.4],
-        [0.0, 0.0, 1.0],
-    ];
-    let pixels = of_five(&|k| product(product(calibration, essential(k)), transposed));
-    assert_five_cameras(&pixels, fundamental);
-    // Each up to its own scale and sign, in one triangle alone.
-    let mut scaled = pixels;
-    for (k, &(i, j)) in PAIRS.iter().enumerate() {
-        for row in &mut scaled[3 * j..3 * j + 3] {
-            row[3 * i..3 * i + 3]
-                .iter_mut()
-                .for_each(|entry| *entry *= -0.5 * (k + 1) as f64);
-        }
-    }
-    assert_five_cameras(&scaled, fundamental);
-    // Pure translations: zeros within the blocks.
-    assert_five_cameras(
-        &of_five(&|k| cross([1.0, 2.0 + k as f64, 3.0])),
-        fundamental,
-    );
-    let mut rotations = of_five(&|k| rotation([1.0, 0.3, k as f64, 0.2]));
-    assert_five_cameras(&rotations, "relative rotations");
-    for (k, row) in rotations.iter_mut().enumerate() {
-        row[k] = 1.0;
-    }
-    assert_five_cameras(&rotations, "relative rotations");
-}
-
-#[test]
-fn blocks_of_another_kind_are_refused_by_name() {
-    let weights = |k: usize| -> Block {
-        std::array::from_fn(|r| {
-            std::array::from_fn(|c| 0.1 + ((7 * r + 4 * c + 5 * k) % 11) as f64)
-        })
+fn blocks_are_no_pairs() {
+    let turn = rotation([1.0, 0.2, -0.3, 0.4]);
+    let of = |block: &dyn Fn(usize, usize) -> f64| {
+        let entry = |r: u32, c: u32| match (r / 3).cmp(&(c / 3)) {
+            std::cmp::Ordering::Less => block((r % 3) as usize, (c % 3) as usize),
+            std::cmp::Ordering::Equal => 0.0,
+            std::cmp::Ordering::Greater => block((c % 3) as usize, (r % 3) as usize),
+        };
+        refusal(read(9, entry))
     };
-    let text = refusal(read_blocks(&of_five(&weights)));
-    assert!(
-        text.starts_with("the entries come in blocks of 3 x 3, and the blocks are neither"),
-        "{text}"
-    );
-    // One of the blocks is that of another pair.
-    let mut wrong = of_five(&essential);
-    let other = essential(17);
-    for r in 0..3 {
-        wrong[r][3..6].copy_from_slice(&other[r]);
+    for signed in [
+        of(&|r, c| turn[r][c]),
+        of(&|r, c| [[0.0, -3.0, 2.0], [3.0, 0.0, -1.0], [-2.0, 1.0, 0.0]][r][c]),
+    ] {
+        let why = "some entries are negative, as in blocks of fundamental matrices or poses; write a matrix";
+        assert!(signed.starts_with(why), "{signed}");
     }
-    let text = refusal(read_blocks(&wrong));
+    let positive = of(&|r, c| 0.1 + (r + 4 * c) as f64);
     assert!(
-        text.contains("no multiple of block (i, j) transposed"),
-        "{text}"
+        positive.starts_with("the rows come in threes with the same pairs"),
+        "{positive}"
     );
-    let mut upper = of_five(&essential);
-    for (r, row) in upper.iter_mut().enumerate() {
-        row[..r].fill(0.0);
-    }
-    let text = refusal(read_blocks(&upper));
-    assert!(
-        text.contains("without block (j, i); fill in the other triangle"),
-        "{text}"
-    );
-    // What the advice says, done.
-    let sum: Vec<Vec<f64>> = (0..15)
-        .map(|r| (0..15).map(|c| upper[r][c] + upper[c][r]).collect())
-        .collect();
-    assert_five_cameras(&sum, "fundamental or essential matrices");
-    let poses = read(8, |r, c| match (r / 4, c / 4) {
-        (i, j) if i == j => f64::from(u8::from(r == c)),
-        (i, _) => {
-            let turn = rotation([1.0, 0.5, f64::from(i), 0.0]);
-            match (r % 4, c % 4) {
-                (3, c) => f64::from(u8::from(c == 3)),
-                (r, 3) => f64::from(r) + 0.5,
-                (r, c) => turn[r as usize][c as usize],
-            }
+    // Before the diagonal of identities, which --skip-loops would leave out.
+    let poses = read(6, |r, c| {
+        if r == c {
+            1.0
+        } else {
+            turn[(r % 3) as usize][(c % 3) as usize]
         }
     });
-    let text = refusal(poses);
-    assert!(
-        text.starts_with("this is a matrix of 4 x 4 blocks (relative poses)"),
-        "{text}"
-    );
+    assert!(refusal(poses).starts_with("some entries are negative"));
 }
 
 /// K_{3,3,3} has the pattern of blocks: with equal entries, or with counts, it is a graph.
@@ -368,58 +241,6 @@ fn light_entries_and_the_diagonal_are_left_out() {
         assert_eq!(parsed.read.ignored, expected);
         assert!(!parsed.notes.iter().any(|note| note.contains("900")));
     }
-}
-
-/// Blocks and lists of pairs have no weights.
-#[test]
-fn weights_of_what_has_none_are_refused() {
-    let options = ListOptions {
-        min_weight: Some("5".parse().unwrap()),
-        ..ListOptions::default()
-    };
-    let matrix = of_five(&essential);
-    let read = read_with(15, |r, c| matrix[r as usize][c as usize], &options);
-    assert!(refusal(read).starts_with("--min-weight: the entries belong to 3 x 3 blocks"));
-    let list = list(4, &[], &options);
-    assert!(refusal(list).starts_with("--min-weight: the numbers are pairs"));
-}
-
-#[test]
-fn two_columns_are_pairs() {
-    let list = |rows: &[[f64; 2]]| {
-        let ends = |(row, pair): (u32, &[f64; 2])| [(row, 0, pair[0]), (row, 1, pair[1])];
-        let entries = (0..).zip(rows).flat_map(ends);
-        let entries: Vec<Entry> = entries.filter(|entry| entry.2 != 0.0).collect();
-        super::list(rows.len() as u32, &entries, &ListOptions::default())
-    };
-    let Parsed {
-        graph,
-        labels,
-        notes,
-        ..
-    } = list(&[[0.0, 7.0], [7.0, 9.0], [9.0, 0.0], [7.0, 0.0]]).unwrap();
-    assert_eq!((graph.nodes(), graph.edges().len()), (3, 3));
-    assert_eq!(labels, Labels::Integers(vec![0, 7, 9]));
-    assert_eq!(notes.len(), 2);
-    assert_eq!(notes[0], "the rows are pairs: two numbers of cameras each");
-    for bad in [0.5, -1.0, f64::NAN, f64::INFINITY, 1e16] {
-        let text = refusal(list(&[[1.0, 2.0], [2.0, bad], [1.0, 3.0]]));
-        assert!(
-            text.contains("is no number of a camera; write pairs as"),
-            "{text}"
-        );
-    }
-    let text = refusal(list(&[[1.0, 2.0], [2.0, 2.0], [1.0, 3.0]]));
-    assert!(text.contains("camera 2 is paired with itself"), "{text}");
-    // Matches of features: increasing indices, each in one row.
-    let matches: Vec<[f64; 2]> = (0..40)
-        .map(|k| [f64::from(3 * k), f64::from(211 * k % 997 * 5)])
-        .collect();
-    let text = refusal(list(&matches));
-    assert!(
-        text.starts_with("most pairs share no number with any other: matches of features"),
-        "{text}"
-    );
 }
 
 proptest! {

@@ -310,8 +310,8 @@ pub fn read_meant(
 }
 
 /// Streams the graphs of one input (`-` is standard input): one a line for graph6 and
-/// sparse6, else one. Nothing is read before the first item is asked for. What gzip, bzip2, xz
-/// or Zstandard has compressed is unpacked.
+/// sparse6, else one. Nothing is read before the first item is asked for. What gzip or bzip2
+/// has compressed is unpacked.
 ///
 /// A bad line of graph6 or sparse6 is an `Err` item, and the next line follows it, if a header or
 /// the options say that it is such a file; every other error ends the stream.

@@ -2,6 +2,7 @@
 
 mod verdicts;
 
+use crate::progress::Progress;
 use crate::report::verdicts as of_verdicts;
 use anyhow::{Context, Result, bail};
 use clap::{Args, Subcommand};
@@ -204,7 +205,7 @@ fn merge(session: &Session, arguments: &MergeArguments) -> Result<u8> {
     let recheck = arguments.recheck.map(|sample| Recheck {
         sample,
         watch: session.watch(),
-        progress: session.progress("graphs", None),
+        progress: Progress::new("graphs", None),
     });
     let merged = merged(&arguments.folder, recheck)?;
     let agrees = merged.agrees();
@@ -260,7 +261,7 @@ fn of_size(
             Ok(complain("viewcert-lab", format_args!("{error:#}"))?)
         },
         note: &mut note,
-        progress: session.progress("candidates", own),
+        progress: Progress::new("candidates", own),
     };
     let summary = work.run(session.outputs(), session.watch(), listener)?;
     found.rows.push(table::Row {

@@ -1,6 +1,7 @@
 //! `viewcert-lab catalog --verdicts`: how many candidates are finite solvable, kernel by kernel.
 
 use super::{Arguments, note};
+use crate::progress::Progress;
 use crate::report::verdicts::{self, VerdictRow};
 use anyhow::{Context, Result};
 use std::io::Write;
@@ -40,7 +41,7 @@ pub fn run(
         if arguments.prepare {
             return Ok(GOOD);
         }
-        let progress = session.progress("kernels", Some(blocks.kernels()));
+        let progress = Progress::new("kernels", Some(blocks.kernels()));
         let list: Option<&mut dyn FnMut(Vec<String>) -> Result<()>> = if arguments.list {
             Some(&mut print)
         } else {

@@ -1,26 +1,20 @@
 //! Progress of many things on standard error: a bar on a terminal, plain lines elsewhere.
 
-use crate::unpoisoned;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{IsTerminal, Write};
-use std::sync::Mutex;
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Time between plain lines; short runs print none.
 const INTERVAL: Duration = Duration::from_secs(10);
 
 /// Progress of a run.
-pub struct Progress {
+pub(crate) struct Progress {
     bar: ProgressBar,
     plain: Option<Mutex<Plain>>,
-    told: Option<Told>,
 }
 
-/// Somebody who wants to know what has been done since the last call.
-pub type Told = Box<dyn Fn(u64) + Send + Sync>;
-
 struct Plain {
-    program: &'static str,
     what: &'static str,
     start: Instant,
     last: Instant,
@@ -30,7 +24,7 @@ struct Plain {
 
 impl Progress {
     /// Starts at nothing out of `total`, if that is known, of `what`: "candidates".
-    pub(crate) fn new(program: &'static str, what: &'static str, total: Option<u64>) -> Self {
+    pub(crate) fn new(what: &'static str, total: Option<u64>) -> Self {
         if std::io::stderr().is_terminal() {
             let bar = match total {
                 Some(total) => ProgressBar::new(total),
@@ -44,46 +38,28 @@ impl Progress {
                 bar.set_style(style);
             }
             bar.set_message(what);
-            return Self {
-                bar,
-                plain: None,
-                told: None,
-            };
+            return Self { bar, plain: None };
         }
         let now = Instant::now();
         Self {
             bar: ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden()),
             plain: Some(Mutex::new(Plain {
-                program,
                 what,
                 start: now,
                 last: now,
                 done: 0,
                 total,
             })),
-            told: None,
-        }
-    }
-
-    /// Tells somebody, and prints nothing.
-    pub fn to(told: Told) -> Self {
-        Self {
-            bar: ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden()),
-            plain: None,
-            told: Some(told),
         }
     }
 
     /// Counts what has been done since the last call.
-    pub fn done(&self, more: u64) {
+    pub(crate) fn done(&self, more: u64) {
         self.bar.inc(more);
-        if let Some(told) = &self.told {
-            told(more);
-        }
         let Some(plain) = &self.plain else {
             return;
         };
-        let mut plain = unpoisoned(plain);
+        let mut plain = plain.lock().unwrap_or_else(PoisonError::into_inner);
         plain.done += more;
         if plain.last.elapsed() < INTERVAL {
             return;
@@ -101,15 +77,14 @@ impl Progress {
         // Progress is not worth failing for.
         let _ = writeln!(
             std::io::stderr(),
-            "{}: {}{of} {}{left}, {rate:.0} a second",
-            plain.program,
+            "viewcert-lab: {}{of} {}{left}, {rate:.0} a second",
             plain.done,
             plain.what
         );
     }
 
     /// Takes the bar away.
-    pub fn finish(&self) {
+    pub(crate) fn finish(&self) {
         self.bar.finish_and_clear();
     }
 }
