@@ -11,7 +11,6 @@ mod layout;
 mod mixtures;
 mod oriented;
 mod plot;
-mod progress;
 mod report;
 mod solutions;
 mod svg;

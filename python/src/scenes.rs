@@ -42,7 +42,9 @@ pub(crate) fn drawing<'py>(
     let (input, verdict) = decided.answer();
     let found = work::run(py, move || {
         let scene = Scene::new(&input, &verdict);
-        Some((scene.points()?, scene.colours()))
+        // Of cameras and points the program draws the cameras alone.
+        let points = scene.points().filter(|_| input.cameras.is_none())?;
+        Some((points, scene.colours()))
     })?;
     let Some((points, colours)) = found else {
         return Ok(None);

@@ -11,6 +11,7 @@ use std::path::Path;
 use crate::NamedGraph;
 use crate::colmap::{self, DatabaseError};
 use crate::edge_list::fields::{Field, integer};
+use crate::edge_list::refusal::shown;
 use crate::edge_list::{BYTE_ORDER_MARK, text};
 use crate::error::{Fault, Place, Problem, ReadError};
 use crate::own_files;
@@ -57,7 +58,13 @@ impl<'a> Cameras<'a> {
     pub(crate) fn named(&self, field: Field, line: &str) -> Result<u32, Problem> {
         let label = field.text(line);
         let node = self.node(&label);
-        node.ok_or_else(|| Problem::UnknownCamera(label.into_owned()))
+        node.ok_or_else(|| {
+            Problem::new(
+                format!("`{}` is no camera of the graph", shown(&label)),
+                "call cameras what the graph calls them; one without pairs stands alone on a line of an edge list \
+                 (--format edges)",
+            )
+        })
     }
 }
 

@@ -142,7 +142,7 @@ impl File {
         let value = kind.value(word)?;
         if !value.is_finite() {
             let (row, column) = (row + 1, column + 1);
-            return Err(Problem::NotANumber { row, column, value });
+            return Err(matrix::no_number([row, column], value));
         }
         if words.next().is_some() {
             return Err(said("the entry has too many fields".into()));
@@ -182,7 +182,10 @@ impl File {
 }
 
 fn said(what: String) -> Problem {
-    Problem::MatrixMarket(what)
+    Problem::new(
+        format!("MatrixMarket: {what}"),
+        "write it again as `%%MatrixMarket matrix coordinate pattern symmetric`",
+    )
 }
 
 /// A row or column, from 0.
@@ -257,7 +260,7 @@ impl Kind {
             return Err(Problem::TooManyNodes);
         };
         if rows != columns {
-            return Err(Problem::NotSquare(format!("{rows} x {columns}")));
+            return Err(matrix::not_square(&format!("{rows} x {columns}")));
         }
         let entries = entries.unwrap_or(match self.symmetric {
             false => rows * columns,

@@ -55,10 +55,12 @@ pub(super) fn given(head: &[u8]) -> Option<Problem> {
     if !text.ends_with('\n') {
         rest.pop();
     }
-    (is_given(first) && rest.into_iter().all(is_given)).then_some(Problem::Foreign {
-        what: "a file of what is given besides a graph",
-        advice: "give it with the graph: verify GRAPH --given FILE; if its lines are pairs all the same, \
-                 write the line `source target` above them",
+    (is_given(first) && rest.into_iter().all(is_given)).then(|| {
+        Problem::foreign(
+            "a file of what is given besides a graph",
+            "give it with the graph: verify GRAPH --given FILE; if its lines are pairs all the same, \
+             write the line `source target` above them",
+        )
     })
 }
 
@@ -66,7 +68,10 @@ pub(super) fn given(head: &[u8]) -> Option<Problem> {
 pub(super) fn known(head: &[u8]) -> Option<Problem> {
     let text = String::from_utf8_lossy(head);
     let text = text.trim_start();
-    let own = |what, advice| Some(Problem::Own { what, advice });
+    let own = |what: &str, advice: &str| {
+        let what = format!("this is {what} that this program has written, and it is not read here");
+        Some(Problem::new(what, advice))
+    };
     if text.starts_with('{') {
         let member = |name: &str| {
             let behind = text.split_once(&format!("\"{name}\""))?.1.trim_start();

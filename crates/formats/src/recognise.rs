@@ -143,8 +143,8 @@ fn every_line(head: &[u8], whole: bool, is: impl Fn(&[u8]) -> bool) -> bool {
 }
 
 /// A refusal by name.
-const fn foreign(what: &'static str, advice: &'static str) -> Problem {
-    Problem::Foreign { what, advice }
+fn foreign(what: &'static str, advice: &'static str) -> Problem {
+    Problem::foreign(what, advice)
 }
 
 const PAIRS: &str = "write one pair a line: the names of two cameras and nothing else";

@@ -24,6 +24,7 @@ mod merge_parts;
 pub mod minimal;
 pub mod multigraph;
 mod part;
+pub mod progress;
 pub mod random;
 pub mod recheck;
 mod run;

@@ -3,6 +3,7 @@
 use crate::counts::Rechecked;
 use crate::merge_parts::Parts;
 use crate::part::{Part, digest, is_kept, line};
+use crate::progress::Progress;
 use crate::run::Run;
 use crate::sample::Sample;
 use crate::set_digest::SetDigest;
@@ -15,7 +16,6 @@ use viewcert::decide::Options;
 use viewcert::graph::{Graph, graph6};
 use viewcert::watch::Watch;
 use viewcert_catalog::mine::Summary;
-use viewcert_session::Progress;
 
 /// What is to be decided again.
 pub struct Recheck {

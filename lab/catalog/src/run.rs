@@ -11,6 +11,7 @@ use anyhow::{Context, Result, bail, ensure};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::fs;
+use std::io::{self, Write};
 use std::path::Path;
 use viewcert_session::Outputs;
 
@@ -109,7 +110,7 @@ impl Run {
                  too, or name another folder",
                 folder.display()
             );
-            outputs.write_new(&path, |out| out.write_all(sealed::sealed(self).as_bytes()))?;
+            write_new(folder, &path, sealed::sealed(self).as_bytes())?;
         }
         match sealed::read::<Self>(&path)? {
             Ok(there) if there == *self => Ok(()),
@@ -182,4 +183,21 @@ pub(crate) fn differences(there: &Run, here: &Run) -> String {
         })
         .collect();
     differing.join(", ")
+}
+/// Writes a file if none of that name is there yet: of several who do so at the same time one is first.
+fn write_new(folder: &Path, path: &Path, bytes: &[u8]) -> Result<()> {
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    let mut file = builder.prefix(".viewcert-").tempfile_in(folder)?;
+    file.write_all(bytes)?;
+    match file.persist_noclobber(path) {
+        Err(failed) if failed.error.kind() != io::ErrorKind::AlreadyExists => {
+            Err(failed.error).with_context(|| path.display().to_string())
+        }
+        _ => Ok(()),
+    }
 }

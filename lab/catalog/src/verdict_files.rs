@@ -11,6 +11,7 @@ use crate::counts::{Counts, Merged, Rechecked};
 use crate::faults::{listed, refuse};
 use crate::files;
 use crate::part::Bad;
+use crate::progress::Progress;
 use crate::recheck::Recheck;
 use crate::run::{Run, differences};
 use crate::sealed;
@@ -24,7 +25,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use viewcert::certificate::hex;
 use viewcert::decide::Options;
-use viewcert_session::{Outputs, Progress};
+use viewcert_session::Outputs;
 
 /// Kernels per block, if nothing else is asked for.
 pub const KERNELS: u32 = 1024;

@@ -1,5 +1,6 @@
 //! A shard of a source, decided batch by batch: counted, or written to part files.
 
+use crate::progress::Progress;
 use crate::run::Run;
 use crate::settings::{Files, Settings};
 use crate::shard::Shard;
@@ -10,7 +11,7 @@ use viewcert::decide::Options;
 use viewcert::graph::Graph;
 use viewcert::watch::Watch;
 use viewcert_catalog::mine::{Entry, Summary};
-use viewcert_session::{Outputs, Progress};
+use viewcert_session::Outputs;
 
 /// How many candidates are decided in one go.
 const BATCH: usize = 4096;

@@ -3,7 +3,6 @@
 
 use super::sizes;
 use crate::oriented::tally::{Tally, tally};
-use crate::progress::Progress;
 use crate::solutions::Source;
 use anyhow::{Context, Result};
 use clap::Args;
@@ -11,6 +10,7 @@ use std::io::Write;
 use std::ops::RangeInclusive;
 use viewcert::decide::Options;
 use viewcert::solutions::Number;
+use viewcert_lab_catalog::progress::Progress;
 use viewcert_session::Session;
 use viewcert_session::exit::GOOD;
 use viewcert_session::outputs;

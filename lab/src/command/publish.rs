@@ -7,7 +7,6 @@
 use super::census;
 use crate::catalog_page;
 use crate::catalog_page::Drawing;
-use crate::progress::Progress;
 use anyhow::{Context, Result, ensure};
 use clap::Args;
 use flate2::{Compression, GzBuilder};
@@ -29,6 +28,7 @@ use viewcert_formats::manifest::{self, Contents, Entry as FileEntry, Hashing, Ma
 use viewcert_lab_catalog::candidates::to_graph;
 use viewcert_lab_catalog::canonical::canonical;
 use viewcert_lab_catalog::multigraph::Multigraph;
+use viewcert_lab_catalog::progress::Progress;
 use viewcert_lab_catalog::{Candidates, least_edges};
 use viewcert_session::Session;
 use viewcert_session::exit::GOOD;

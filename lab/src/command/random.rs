@@ -1,7 +1,6 @@
 //! `viewcert-lab random`: connected random graphs, the paper's Table 2.
 
 use crate::plot::{Point, plot};
-use crate::progress::Progress;
 use anyhow::{Context, Result, anyhow};
 use clap::Args;
 use std::io::Write;
@@ -10,6 +9,7 @@ use viewcert::decide::{CountSolutions, Options, Question, Strength, Value};
 use viewcert_catalog::mine;
 use viewcert_catalog::mine::Entry;
 use viewcert_formats::csv;
+use viewcert_lab_catalog::progress::Progress;
 use viewcert_lab_catalog::random;
 use viewcert_lab_catalog::random::{Density, Sampler, fisher};
 use viewcert_session::Session;

@@ -1,7 +1,6 @@
 //! `viewcert-lab solutions`: how many solutions the graphs of a size have.
 
 use super::sizes;
-use crate::progress::Progress;
 use crate::solutions::{Bounds, Source, Tally, tally};
 use anyhow::{Context, Result};
 use clap::Args;
@@ -11,6 +10,7 @@ use std::ops::RangeInclusive;
 use std::time::Instant;
 use viewcert::decide::Options;
 use viewcert::solutions::Number;
+use viewcert_lab_catalog::progress::Progress;
 use viewcert_session::Session;
 use viewcert_session::exit::GOOD;
 use viewcert_session::outputs;

@@ -2,7 +2,6 @@
 //! how many solutions they have.
 
 use super::sizes;
-use crate::progress::Progress;
 use crate::thinned::{draw_size, piece, thinned};
 use anyhow::{Context, Result};
 use clap::Args;
@@ -17,6 +16,7 @@ use viewcert::graph::graph6;
 use viewcert::solutions::Number;
 use viewcert_formats::csv;
 use viewcert_formats::{NamedGraph, ReadOptions, read_graphs};
+use viewcert_lab_catalog::progress::Progress;
 use viewcert_lab_catalog::random::generator;
 use viewcert_report::counted;
 use viewcert_session::Session;

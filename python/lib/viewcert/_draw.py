@@ -36,8 +36,8 @@ def positions(verdict: Verdict[Any]) -> Tuple[NDArray[np.float64], List[str]]:
     found = _native.drawing(native.again() if isinstance(native, Kept) else native)
     if found is None:
         raise TooLarge(
-            f"{verdict.graph.name}: too many nodes or pairs to be drawn one by one; picture() draws components, and "
-            "plot(pos=...) draws at places of yours"
+            f"{verdict.graph.name}: more than 1000 nodes, or points, are not drawn one by one; picture() draws some "
+            "cameras, and plot(pos=...) draws at places of yours"
         )
     points, colours = found
     return points * (1.0, -1.0), colours

@@ -622,7 +622,7 @@ class Verdict(Generic[N]):
         Raises
         ------
         TooLarge
-            Of a graph with more than 1,000 nodes or 150,000 pairs.
+            Of a graph with more than 1,000 nodes, or with points.
         """
         points, _ = positions(self)
         return {node: (x, y) for node, (x, y) in zip(self._graph.nodes, points.tolist())}
@@ -656,7 +656,7 @@ class Verdict(Generic[N]):
         Raises
         ------
         TooLarge
-            Without `pos`, of a graph with more than 1,000 nodes or 150,000 pairs.
+            Without `pos`, of a graph with more than 1,000 nodes, or with points.
         """
         return plot(self, ax, pos=pos, labels=labels, node_size=node_size)
 

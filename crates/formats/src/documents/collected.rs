@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use crate::edge_list::PAIR_LIMIT;
 use crate::edge_list::columns::ListOptions;
 use crate::edge_list::nodes::Index;
+use crate::edge_list::refusal::shown;
 use crate::error::{Fault, Place, Problem};
 use crate::read_as::{Parsed, ReadAs};
 use viewcert::graph::{Graph, GraphError};
@@ -49,10 +50,19 @@ impl Collected {
     /// A label that is empty or has control characters; too many nodes.
     pub(crate) fn node(&mut self, label: &str) -> Result<u32, Problem> {
         if label.is_empty() {
-            return Err(Problem::EmptyLabel);
+            return Err(Problem::new(
+                "a camera has an empty name",
+                "give it another name",
+            ));
         }
         if label.chars().any(char::is_control) {
-            return Err(Problem::ControlInLabel(label.escape_debug().to_string()));
+            return Err(Problem::new(
+                format!(
+                    "the name \"{}\" has a control character",
+                    shown(&label.escape_debug().to_string())
+                ),
+                "give it another name",
+            ));
         }
         let node = self.index.node(label).ok_or(Problem::TooManyNodes)?;
         if node as usize == self.listed.len() {

@@ -130,10 +130,10 @@ fn line_of(text: &[u8], at: usize) -> u64 {
 
 /// What a format does not allow.
 fn malformed(format: &'static str, what: impl Into<String>) -> Problem {
-    Problem::Malformed {
-        format,
-        what: what.into(),
-    }
+    Problem::new(
+        format!("{format}: {}", what.into()),
+        "mend the file, or write one pair a line: two names and nothing else",
+    )
 }
 
 #[cfg(test)]

@@ -14,6 +14,7 @@ use super::table::Table;
 use crate::cameras::{Cameras, for_each_line};
 use crate::edge_list::BYTE_ORDER_MARK;
 use crate::edge_list::fields::{Field, split};
+use crate::edge_list::refusal::shown;
 use crate::error::{Fault, Place, Problem, ReadError};
 use crate::{Model, NamedGraph, matlab};
 use viewcert::geometry::camera::Camera;
@@ -70,7 +71,7 @@ fn arrays(bytes: &[u8]) -> Option<Fault> {
         ),
         () => return None,
     };
-    Some(Place::Input.fault(Problem::Foreign { what, advice }))
+    Some(Place::Input.fault(Problem::foreign(what, advice)))
 }
 
 fn finished(
@@ -137,9 +138,11 @@ fn of_text(text: impl io::Read, input: &NamedGraph) -> Result<Read, Fault> {
                     CAMERA => 12,
                     POSE => 7,
                     CENTRE => 3,
-                    _ => return Err(Problem::MixedCameras("cameras")),
+                    _ => return Err(mixed("cameras")),
                 };
-                let (&first, rest) = fields.split_first().ok_or(Problem::NoCamera)?;
+                let (&first, rest) = fields
+                    .split_first()
+                    .ok_or_else(|| Problem::new("the line names no camera", LINES))?;
                 (expected, first, rest.to_vec())
             }
         };
@@ -147,7 +150,7 @@ fn of_text(text: impl io::Read, input: &NamedGraph) -> Result<Read, Fault> {
         let found = rest.len();
         let numbers = rest.iter().map(|&field| number(field, line));
         let numbers = numbers.collect::<Result<Vec<Rational>, Problem>>()?;
-        let wrong = Problem::NoCameraNumbers { expected, found };
+        let wrong = no_numbers(expected, found);
         let place = match &numbers[..] {
             [x, y, z] if expected == 3 => Given::Centre([x.clone(), y.clone(), z.clone()]),
             pose if expected == 7 && found == 7 => {
@@ -158,16 +161,46 @@ fn of_text(text: impl io::Read, input: &NamedGraph) -> Result<Read, Fault> {
         };
         match given.insert(node, place) {
             None => Ok(()),
-            Some(_) => Err(Problem::CameraTwice(first.text(line).into_owned())),
+            Some(_) => Err(twice(&first.text(line))),
         }
     })?;
     all(given, input, Vec::new()).map_err(|problem| Place::Input.fault(problem))
 }
 
+const LINES: &str = "write `camera`, a name and the 12 entries of its matrix, row by row; or `pose`, a name, a quaternion (real \
+                     part first) and a translation; or `centre`, a name and three coordinates";
+
+/// A line with a camera that has another number of fields.
+pub(super) fn no_numbers(expected: usize, found: usize) -> Problem {
+    let what = format!("{found} numbers stand behind the camera, and {expected} are expected");
+    Problem::new(what, LINES)
+}
+
+/// Cameras and centres, or something else besides cameras, in one file.
+pub(super) fn mixed(what: &str) -> Problem {
+    Problem::new(
+        format!("lines with {what} stand beside others"),
+        "give all cameras as matrices and poses, or all as centres, and what else is known in a run of its own",
+    )
+}
+
+fn twice(camera: &str) -> Problem {
+    Problem::new(
+        format!("the camera of `{}` is given twice", shown(camera)),
+        "leave one out",
+    )
+}
+
 fn number(field: Field, line: &str) -> Result<Rational, Problem> {
     let text = field.text(line);
     let number = text.parse();
-    number.map_err(|_| Problem::NoRational(text.into_owned()))
+    number.map_err(|_| {
+        let text = shown(&text);
+        Problem::new(
+            format!("`{text}` is no decimal number with an exponent up to 400, and no fraction"),
+            LINES,
+        )
+    })
 }
 
 /// The cameras of a model, by the names of its images.
@@ -184,7 +217,7 @@ fn of_model(model: &Model, input: &NamedGraph) -> Result<Read, Problem> {
                     .insert(node, Given::Camera(Box::new(of_pose(&pose))))
                     .is_some()
                 {
-                    return Err(Problem::CameraTwice(image.name.to_string()));
+                    return Err(twice(&image.name));
                 }
             }
         }

@@ -7,11 +7,12 @@
 use crate::NamedGraph;
 use crate::cameras::Cameras;
 use crate::edge_list::fields::Field;
+use crate::edge_list::refusal::shown;
 use crate::error::{Fault, Place, Problem};
 use crate::given::Given;
 use std::collections::BTreeSet;
 use viewcert::Known;
-use viewcert::graph::{Coordinate, Displacements, VectorError};
+use viewcert::graph::{Coordinate, CoordinateError, Displacements, VectorError};
 use viewcert::wording::counted;
 
 /// The lines so far.
@@ -49,13 +50,15 @@ impl Lines {
         fields: &[Field],
         cameras: &Cameras,
     ) -> Result<(), Problem> {
-        let (&[first, second], rest) = fields.split_first_chunk().ok_or(Problem::NoPair)?;
+        let (&[first, second], rest) = fields
+            .split_first_chunk()
+            .ok_or_else(|| Problem::new("the line does not name two cameras", LINES))?;
         let [first, second] = [cameras.named(first, line)?, cameras.named(second, line)?];
         let vector = self.vector(line, rest)?;
         if first == second {
             let zero = Some([Coordinate::default(); 3]);
             if vector.is_some() && vector != zero {
-                return Err(Problem::Contradiction);
+                return Err(contradiction());
             }
             self.with_itself += 1;
             return Ok(());
@@ -76,7 +79,9 @@ impl Lines {
         fields: &[Field],
         cameras: &Cameras,
     ) -> Result<(), Problem> {
-        let (first, rest) = fields.split_first().ok_or(Problem::NoCamera)?;
+        let (first, rest) = fields
+            .split_first()
+            .ok_or_else(|| Problem::new("the line names no camera", LINES))?;
         let about = cameras.named(*first, line)?;
         let vector = self.vector(line, rest)?;
         self.positions.push(Line {
@@ -97,15 +102,20 @@ impl Lines {
                 coordinate(line, z)?,
             ]),
             _ => {
-                return Err(Problem::NoVector {
-                    found: fields.len(),
-                });
+                let found = fields.len();
+                let what =
+                    format!("{found} fields stand behind the cameras, and a vector has three");
+                return Err(Problem::new(what, LINES));
             }
         };
         if *self.has_vectors.get_or_insert(vector.is_some()) == vector.is_some() {
             Ok(vector)
         } else {
-            Err(Problem::SomeVectors)
+            Err(Problem::new(
+                "some lines have vectors, and others have none",
+                "give vectors and positions on all lines, and the verdict is about these, or on none, and it is about \
+                 vectors in general position",
+            ))
         }
     }
 
@@ -116,7 +126,10 @@ impl Lines {
         self.take_positions()?;
         let known = self.known(graph)?;
         if known.is_empty() {
-            return Err(Place::Input.fault(Problem::NoDisplacements));
+            return Err(Place::Input.fault(Problem::new(
+                "the file holds no displacement",
+                "write pairs of cameras, one a line, or cameras with known positions, two at least",
+            )));
         }
         let is_other = |&&(v, w): &&(u32, u32)| graph.graph.edge_number(v, w).is_none();
         let others = pairs.iter().filter(is_other).count();
@@ -176,7 +189,7 @@ impl Lines {
                     vector,
                 });
             } else if line.vector != first.vector {
-                return Err(fault(Problem::Contradiction));
+                return Err(fault(contradiction()));
             }
         }
         Ok(())
@@ -193,16 +206,40 @@ impl Lines {
         let items = pairs.zip(given).map(|((u, v), vector)| (u, v, vector));
         Displacements::with_vectors(nodes, items).map_err(|error| match error {
             VectorError::Contradiction { vector } => {
-                Place::Line(self.pairs[vector].number).fault(Problem::Contradiction)
+                Place::Line(self.pairs[vector].number).fault(contradiction())
             }
             VectorError::SamePlace { first, second } => {
                 let [first, second] = [first, second].map(|v| graph.labels.label(v).into_owned());
-                Place::Input.fault(Problem::SamePlace { first, second })
+                Place::Input.fault(Problem::new(
+                    format!(
+                        "`{}` and `{}` are at one place",
+                        shown(&first),
+                        shown(&second)
+                    ),
+                    "two centres that are known to be one are one camera: leave one out",
+                ))
             }
-            VectorError::TooLong => Place::Input.fault(Problem::LongVectors),
+            VectorError::TooLong => Place::Input.fault(long_vectors()),
             VectorError::Pair(_) => unreachable!("pairs of the graph's nodes"),
         })
     }
+}
+
+const LINES: &str = "write `displacement` and two cameras, or `position` and one; behind them, on all lines or on none, the \
+                     vector from the first to the second, or the position, as three numbers";
+
+fn contradiction() -> Problem {
+    Problem::new(
+        "this contradicts the lines before it: their vectors add up to another one",
+        "vectors add up exactly here: leave out what follows from others, or what was rounded",
+    )
+}
+
+fn long_vectors() -> Problem {
+    Problem::new(
+        "as multiples of one unit, the vectors have more than 30 digits",
+        "round them, so that all have the same few decimals",
+    )
 }
 
 fn sorted((v, w): (u32, u32)) -> (u32, u32) {
@@ -212,14 +249,16 @@ fn sorted((v, w): (u32, u32)) -> (u32, u32) {
 /// A coordinate of a vector or a position.
 fn coordinate(line: &str, field: &Field) -> Result<Coordinate, Problem> {
     let text = field.text(line);
-    text.parse().map_err(|why| Problem::NoCoordinate {
-        field: text.clone().into_owned(),
-        why,
+    text.parse().map_err(|why: CoordinateError| {
+        Problem::new(
+            format!("`{}` is {why}", shown(&text)),
+            "give three numbers, decimal (-1.25, 3e-2) or fractions (1/3)",
+        )
     })
 }
 
 /// The vector from one position to another.
 fn between(from: Vector, to: Vector) -> Result<Vector, Problem> {
-    let minus = |k: usize| to[k].minus(from[k]).map_err(|_| Problem::LongVectors);
+    let minus = |k: usize| to[k].minus(from[k]).map_err(|_| long_vectors());
     Ok([minus(0)?, minus(1)?, minus(2)?])
 }

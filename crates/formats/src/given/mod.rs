@@ -17,6 +17,7 @@ use std::path::Path;
 
 use crate::cameras::for_each_line;
 use crate::edge_list::fields::split;
+use crate::edge_list::refusal::shown;
 use crate::error::{Fault, Place, Problem, ReadError};
 use crate::{NamedGraph, colmap, whole};
 use viewcert::graph::Displacements;
@@ -135,11 +136,11 @@ pub fn with_rigs(known: Known, input: &NamedGraph) -> Result<Known, Problem> {
     let displaced = match &known {
         _ if groups.is_empty() => return Ok(known),
         Known::Parts(parts) if !parts.is_empty() => {
-            return Err(Problem::BesideRigs("known parts"));
+            return Err(beside_rigs("known parts"));
         }
         Known::Parts(_) => &[][..],
         Known::Displacements(known) if known.vectors().is_some() => {
-            return Err(Problem::BesideRigs("displacements with vectors"));
+            return Err(beside_rigs("displacements with vectors"));
         }
         Known::Displacements(known) => known.groups(),
     };
@@ -169,17 +170,31 @@ pub fn read(input: impl Read, graph: &NamedGraph) -> Result<Given, Fault> {
             DISPLACEMENT => displacements.take_pair(number, line, fields, cameras)?,
             POSITION => displacements.take_position(number, line, fields, cameras)?,
             other if cameras::WORDS.contains(&other) => {
-                return Err(Problem::CamerasBeside(other.to_owned()));
+                return Err(Problem::new(
+                    format!(
+                        "`{other}` gives a camera, and cameras are read from a file that holds nothing else, or from standard input (-)"
+                    ),
+                    "write one camera for each of the graph into a file of their own and name it",
+                ));
             }
-            other => return Err(Problem::NothingGiven(other.to_owned())),
+            other => {
+                let what = format!(
+                    "the line begins with `{}`, not with part, displacement or position",
+                    shown(other)
+                );
+                return Err(Problem::new(what, LINES));
+            }
         }
         match (parts.is_empty(), displacements.is_empty()) {
-            (false, false) => Err(Problem::PartsAndDisplacements),
+            (false, false) => Err(Problem::new(
+                "known parts stand beside known displacements, and there is no theorem about both",
+                "leave out one of the two",
+            )),
             _ => Ok(()),
         }
     })?;
     match (parts.is_empty(), displacements.is_empty()) {
-        (true, true) => Err(Place::Input.fault(Problem::Empty)),
+        (true, true) => Err(Place::Input.fault(Problem::new("the file gives nothing", LINES))),
         (true, false) => displacements.finish(graph),
         (false, _) => {
             let nodes = graph.graph.nodes() as u32;
@@ -200,6 +215,19 @@ const PART: &str = "part";
 const DISPLACEMENT: &str = "displacement";
 /// The first word of a line with a known position: a camera follows, and perhaps where it is.
 const POSITION: &str = "position";
+
+/// How a file of what is given is written.
+const LINES: &str = "write on each line `part` and cameras whose relative position is known, `displacement` and two cameras, \
+                     or `position` and a camera";
+
+fn beside_rigs(what: &str) -> Problem {
+    Problem::new(
+        format!(
+            "the rigs of this input know base lines without their vectors, and {what} do not go together with these"
+        ),
+        "leave the rigs out of account (--no-rigs), or what is given",
+    )
+}
 
 #[cfg(test)]
 mod tests;

@@ -3,11 +3,13 @@
 use std::collections::BTreeMap;
 
 use crate::NamedGraph;
+use crate::edge_list::refusal::shown;
 use crate::error::{Fault, Place, Problem};
 use viewcert::geometry::camera::Camera;
 use viewcert::geometry::model::Model as Question;
 use viewcert::here::{CentreError, Centres};
 use viewcert::linalg::rational::Rational;
+use viewcert::wording::counted;
 
 /// A camera for each node of a graph.
 #[derive(Clone, Debug)]
@@ -42,7 +44,12 @@ impl Read {
             Places::Cameras(cameras) => Centres::of_cameras(model, cameras),
             Places::Centres(centres) => Centres::of_points(model, centres),
         };
-        let problem = |error| Problem::NoCentre(centre_error(error, input));
+        let problem = |error| {
+            Problem::new(
+                centre_error(error, input),
+                "give cameras of rank 3 that the model knows",
+            )
+        };
         let notes = self.notes;
         let centres = centres.map_err(|error| Place::Input.fault(problem(error)))?;
         Ok(GivenCameras { centres, notes })
@@ -83,10 +90,15 @@ pub(super) fn all(
     let nodes = input.graph.nodes();
     let first = (0..nodes as u32).find(|v| !given.contains_key(v));
     if let Some(first) = first {
-        return Err(Problem::MissingCameras {
-            first: input.labels.label(first).into_owned(),
-            missing: nodes - given.len(),
-        });
+        let missing = counted(nodes - given.len(), "node");
+        let first = input.labels.label(first);
+        return Err(Problem::new(
+            format!(
+                "no camera is given for {missing} of the graph; `{}` is the first",
+                shown(&first)
+            ),
+            "give every node a camera, or leave the pairs of those that have none out of the graph",
+        ));
     }
     let (mut cameras, mut centres) = (Vec::new(), Vec::new());
     for place in given.into_values() {
@@ -98,7 +110,7 @@ pub(super) fn all(
     let places = match (cameras.is_empty(), centres.is_empty()) {
         (_, true) => Places::Cameras(cameras),
         (true, _) => Places::Centres(centres),
-        _ => return Err(Problem::MixedCameras("centres")),
+        _ => return Err(super::cameras::mixed("centres")),
     };
     Ok(Read { places, notes })
 }

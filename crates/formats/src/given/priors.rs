@@ -49,7 +49,13 @@ fn of(priors: &PosePriors, graph: &NamedGraph) -> Result<Given, Fault> {
         }
     }
     let Some(first) = known.keys().next().copied().filter(|_| known.len() > 1) else {
-        return Err(Place::Input.fault(Problem::NoPositions(known.len())));
+        return Err(Place::Input.fault(Problem::new(
+            format!(
+                "the pose priors of the database give {} of the graph a position, and two are needed",
+                counted(known.len(), "camera")
+            ),
+            "import positions into the database, or write the cameras whose position is known into a file, `position` before each",
+        )));
     };
     let stars = known.keys().skip(1).map(|&other| (first, other));
     let group = Displacements::new(graph.graph.nodes() as u32, stars);

@@ -58,7 +58,10 @@ pub fn of_database(path: &Path, input: &NamedGraph, priors: bool) -> Result<Intr
     let name = path.display().to_string();
     let fault = |problem: Problem| Place::Input.fault(problem).in_file(&name);
     if !colmap::is_database(path) {
-        return Err(fault(Problem::NoDatabase));
+        return Err(fault(Problem::new(
+            "this is no COLMAP database, which would say what is known of intrinsics",
+            FILE,
+        )));
     }
     let lengths = colmap::focal_lengths(path).map_err(|error| fault(error.into()))?;
     let FocalLengths { cameras, known } = lengths;
@@ -69,7 +72,10 @@ pub fn of_database(path: &Path, input: &NamedGraph, priors: bool) -> Result<Intr
     for node in 0..input.graph.nodes() as u32 {
         let label = input.labels.label(node);
         let Some(camera) = cameras.get(&*label) else {
-            return Err(fault(Problem::UnknownImage(label.into_owned())));
+            return Err(fault(Problem::new(
+                format!("the database has no image `{label}`"),
+                FILE,
+            )));
         };
         let focal = known[camera];
         let is_known = focal == Focal::Spherical || priors && focal == Focal::Prior;
@@ -142,32 +148,52 @@ pub fn read(input: impl Read, graph: &NamedGraph) -> Result<Intrinsics, Fault> {
             word = next();
         }
         let word = word.ok_or(if is_default {
-            Problem::OneDefault
+            one_default()
         } else {
-            Problem::NoClass(SHARED.to_owned())
+            no_class(SHARED)
         })?;
-        let class = Class::of_word(&word).ok_or_else(|| Problem::NoClass(word.into_owned()))?;
+        let class = Class::of_word(&word).ok_or_else(|| no_class(&word))?;
         if is_default {
             let default = (class, is_shared);
             let is_other = |before| before != default;
             return match rest.is_empty() && !found.default.replace(default).is_some_and(is_other) {
                 true => Ok(()),
-                false => Err(Problem::OneDefault),
+                false => Err(one_default()),
             };
         }
         if rest.is_empty() {
-            return Err(Problem::NoCamera);
+            return Err(Problem::new("the line names no camera", LINES));
         }
         let nodes = rest.iter().map(|&field| cameras.named(field, line));
         let nodes: Vec<u32> = nodes.collect::<Result<_, _>>()?;
         found
             .line(number, &nodes, class, is_shared)
-            .map_err(|(at, before)| Problem::TwoClasses(rest[at].text(line).into_owned(), before))
+            .map_err(|(at, before)| {
+                let camera = rest[at].text(line);
+                let what = format!("`{camera}` is of another class or sensor in line {before}");
+                Problem::new(what, "name each camera once")
+            })
     })?;
     if is_empty {
-        return Err(Place::Input.fault(Problem::NoClasses));
+        return Err(Place::Input.fault(Problem::new(
+            "the file says nothing about intrinsics",
+            LINES,
+        )));
     }
     Ok(found.intrinsics())
+}
+
+const FILE: &str = "give a file with the classes of cameras: --intrinsics FILE";
+const LINES: &str = "write on each line `known`, `focal`, `focal+point` or `unknown`, for what is not known of their intrinsics, \
+                     and cameras (`shared` before the class if they are images of one sensor); and on one line `default` \
+                     and a class for the others";
+
+fn one_default() -> Problem {
+    Problem::new("there is one default, and one class", LINES)
+}
+
+fn no_class(word: &str) -> Problem {
+    Problem::new(format!("`{word}` is no class of cameras"), LINES)
 }
 
 /// What lines said so far.

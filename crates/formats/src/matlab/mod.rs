@@ -243,13 +243,19 @@ impl<'a> Variable<'a> {
     /// increasing.
     fn entries(&self) -> Result<Vec<Entry>, Problem> {
         if !(SPARSE..=LAST_NUMERIC).contains(&self.class) {
-            return Err(Problem::NotNumeric(self.class_name()));
+            return Err(Problem::new(
+                format!("a {} is not a numeric matrix", self.class_name()),
+                matrix::SQUARE,
+            ));
         }
         if self.flags & COMPLEX != 0 {
-            return Err(Problem::Complex);
+            return Err(Problem::new(
+                "the matrix is complex",
+                "save its real part, or the matrix of its non-zero entries",
+            ));
         }
         let Some([rows, columns]) = self.numeric_shape() else {
-            return Err(Problem::NotSquare(self.shape()));
+            return Err(matrix::not_square(&self.shape()));
         };
         let content = self.content(u64::MAX)?;
         let mut rest = &*content;
@@ -395,7 +401,7 @@ pub(super) fn read_noting(
             matrix::graph(rows, variable.entries()?, options).map(|(parsed, _)| parsed)
         }
         _ => match variable.entries() {
-            Ok(_) => Err(Problem::NotSquare(variable.shape())),
+            Ok(_) => Err(matrix::not_square(&variable.shape())),
             Err(problem) => Err(problem),
         },
     };
@@ -432,8 +438,18 @@ fn variables(bytes: &[u8]) -> Result<Vec<Variable<'_>>, Fault> {
     let fault = |problem| Place::Input.fault(problem);
     match version(bytes) {
         Some(Version::Five) => {}
-        Some(Version::BigEndian) => return Err(fault(Problem::MatlabBigEndian)),
-        Some(Version::Hdf5) => return Err(fault(Problem::MatlabHdf5)),
+        Some(Version::BigEndian) => {
+            return Err(fault(Problem::new(
+                "a MATLAB file of a big-endian machine is not read here",
+                "save it in MATLAB with -v7 or -v6",
+            )));
+        }
+        Some(Version::Hdf5) => {
+            return Err(fault(Problem::new(
+                "HDF5, as MATLAB writes it in version 7.3, is not read here",
+                "in Python: viewcert.verify(h5py.File('FILE')['A'][:]); or save it in MATLAB with -v7",
+            )));
+        }
         None => return Err(fault(malformed("this is not a MATLAB file"))),
     }
     let mut rest = bytes.get(HEADER_LENGTH..).ok_or_else(|| {
@@ -457,6 +473,8 @@ fn variables(bytes: &[u8]) -> Result<Vec<Variable<'_>>, Fault> {
     Ok(variables)
 }
 
+const NAME: &str = "name the adjacency matrix with --variable";
+
 /// The variable that is meant.
 fn choose<'v, 'a>(
     variables: &'v [Variable<'a>],
@@ -475,19 +493,25 @@ fn choose<'v, 'a>(
         return Ok(variable);
     }
     if let Some(name) = asked {
-        let present = present();
-        return Err(Place::Variable(name.to_owned()).fault(Problem::NoSuchVariable { present }));
+        let what = format!("there is no such variable; the file holds {}", present());
+        return Err(Place::Variable(name.to_owned()).fault(Problem::new(what, NAME)));
     }
     // A single number is no adjacency.
     let is_adjacency = |v: &&Variable| v.is_square() && v.dimensions[0] > 1;
     let squares: Vec<_> = variables.iter().filter(is_adjacency).collect();
     let problem = match &squares[..] {
         [variable] => return Ok(variable),
-        [] => Problem::NoMatrix { present: present() },
-        _ => Problem::ChooseVariable {
-            candidates: squares.len(),
-            present: present(),
-        },
+        [] => Problem::new(
+            format!("there is no square matrix; the file holds {}", present()),
+            "save the adjacency matrix, or write pairs as text, one a line",
+        ),
+        _ => {
+            let (count, present) = (squares.len(), present());
+            Problem::new(
+                format!("no variable A and {count} square matrices; the file holds {present}"),
+                NAME,
+            )
+        }
     };
     Err(Place::Input.fault(problem))
 }

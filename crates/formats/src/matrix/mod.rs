@@ -54,7 +54,7 @@ pub(super) fn graph(
     }
     if let Some(&(row, column, value)) = entries.iter().find(|entry| !entry.2.is_finite()) {
         let (row, column) = (row + 1, column + 1);
-        return Err(Problem::NotANumber { row, column, value });
+        return Err(no_number([row, column], value));
     }
     let again = merge(&mut entries);
     let all = entries.len();
@@ -63,10 +63,10 @@ pub(super) fn graph(
     let (least, most) = range(values(&entries));
     // Rotations, translations and fundamental matrices have entries of both signs.
     if least < 0.0 && 0.0 < most {
-        return Err(Problem::Doubtful {
-            what: "some entries are negative, as in blocks of fundamental matrices or poses",
-            advice: ONES,
-        });
+        return Err(Problem::new(
+            "some entries are negative, as in blocks of fundamental matrices or poses",
+            ONES,
+        ));
     }
     let read = ReadAs {
         ignored: choose(&mut entries, options),
@@ -89,6 +89,32 @@ pub(super) fn graph(
         notes,
     };
     Ok((parsed, again))
+}
+
+/// An entry that is not a number, or is infinite; rows and columns count from 1.
+pub(super) fn no_number([row, column]: [u32; 2], value: f64) -> Problem {
+    let what = if value.is_nan() {
+        "not a number (NaN)"
+    } else {
+        "infinite"
+    };
+    let what = format!("entry ({row}, {column}) is {what}");
+    Problem::new(what, "put zero where there is no pair")
+}
+
+/// Not as many rows as columns, or more than two dimensions.
+pub(super) fn not_square(shape: &str) -> Problem {
+    Problem::new(format!("the matrix is {shape}, not square"), SQUARE)
+}
+
+/// What a matrix has to be.
+pub(super) const SQUARE: &str = "give a square matrix, of which rows and columns are cameras (of several variables: --variable), \
+                                 or write pairs as text, one a line";
+
+fn diagonal(row: u32) -> Problem {
+    let row = row + 1;
+    let what = format!("diagonal entry ({row}, {row}) is non-zero: a camera paired with itself");
+    Problem::new(what, "set the diagonal to zero; --skip-loops leaves it out")
 }
 
 /// Sorts entries by columns and makes one of those of one place; how many there were more.
@@ -140,7 +166,7 @@ fn weighs_less(value: f64, least: &Decimal) -> bool {
 fn pattern(size: u32, entries: &[Entry]) -> Result<Graph, Problem> {
     let pairs = entries.iter().map(|&(row, column, _)| (row, column));
     if let Some((row, _)) = pairs.clone().find(|(row, column)| row == column) {
-        return Err(Problem::Diagonal(row + 1));
+        return Err(diagonal(row));
     }
     let below = pairs.clone().filter(|(row, column)| row > column);
     let below: Vec<_> = below.map(|(row, column)| (column, row)).collect();
@@ -154,13 +180,19 @@ fn pattern(size: u32, entries: &[Entry]) -> Result<Graph, Problem> {
             (_, above) => above.copied().unwrap_or_default(),
         };
         let (row, column) = (entry.0 + 1, entry.1 + 1);
-        return Err(Problem::Asymmetric { row, column });
+        return Err(Problem::new(
+            format!(
+                "the matrix is not symmetric: ({row}, {column}) is non-zero, ({column}, {row}) is zero"
+            ),
+            "if the direction of pairs does not matter, fill in the other triangle: save A ~= 0 | A' ~= 0 in MATLAB, \
+             (A != 0) + (A != 0).T in SciPy",
+        ));
     }
     match Graph::from_pairs(size, below) {
         Ok((graph, _)) => Ok(graph),
         // The diagonal is empty and every row below the number of rows.
         Err(GraphError::SelfLoop(node) | GraphError::OutOfRange { node, .. }) => {
-            Err(Problem::Diagonal(node + 1))
+            Err(diagonal(node))
         }
     }
 }
@@ -210,26 +242,26 @@ fn describe(graph: &Graph, entries: &[Entry]) -> Result<Option<String>, Problem>
     let integers = values(entries).all(|value| value.fract() == 0.0);
     let nodes = graph.nodes();
     if !integers && are_threes(graph) {
-        return Err(Problem::Doubtful {
-            what: "the rows come in threes with the same pairs: blocks of 3 x 3, perhaps",
-            advice: ONES,
-        });
+        return Err(Problem::new(
+            "the rows come in threes with the same pairs: blocks of 3 x 3, perhaps",
+            ONES,
+        ));
     }
     if !integers && nodes > FEW && graph.edges().len() == nodes * (nodes - 1) / 2 {
-        return Err(Problem::Doubtful {
-            what: "every entry off the diagonal is non-zero, and they are no integers: a table \
+        return Err(Problem::new(
+            "every entry off the diagonal is non-zero, and they are no integers: a table \
                    of distances, similarities or weights, which does not say which pairs there \
                    are",
-            advice: ONES,
-        });
+            ONES,
+        ));
     }
     let (smallest, largest) = range(values(entries).map(f64::abs));
     if !integers && smallest < ROUNDING * largest {
-        return Err(Problem::Doubtful {
-            what: "some entries are so small beside others that they may be rounding errors, and \
+        return Err(Problem::new(
+            "some entries are so small beside others that they may be rounding errors, and \
                    no pairs",
-            advice: ONES,
-        });
+            ONES,
+        ));
     }
     let what = if integers { "integers" } else { "real numbers" };
     let [least, most] = [least, most].map(shown);

@@ -200,7 +200,7 @@ impl Model {
         let there = |part: Part, encoding| part.is_in(folder, encoding);
         let whole = |&encoding: &_| there(Part::Cameras, encoding) && there(Part::Images, encoding);
         let Some(encoding) = encoding_in(folder).filter(whole) else {
-            return Err(Place::Input.fault(Problem::NoModel));
+            return Err(Place::Input.fault(no_model()));
         };
         let images = Part::Images.read(folder, encoding, |fields| images(fields, true))?;
         let points = Part::Points.read(folder, encoding, |fields| {
@@ -473,6 +473,14 @@ pub(crate) fn exact(number: f64) -> Option<Rational> {
         mantissa
     };
     Some(Rational::scaled(mantissa, 2, exponent))
+}
+
+/// A part of a model without its tracks.
+pub(crate) fn no_model() -> Problem {
+    Problem::new(
+        "there is no model here: points3D.bin or points3D.txt, which holds the tracks, is missing",
+        "name the folder that has all files of the model",
+    )
 }
 
 #[cfg(test)]

@@ -417,10 +417,8 @@ fn more(input: &mut Input, head: &mut Vec<u8>, count: u64) -> Result<bool, Probl
 fn sampled_again(outer: Sampled, compression: Compression) -> Result<Sampled, Problem> {
     let inner = sampled(Box::new(Inflater::new(outer.into_input(), compression)))?;
     if Compression::of(&inner.head).is_some() {
-        return Err(Problem::Foreign {
-            what: "a file that is compressed twice",
-            advice: "unpack it once",
-        });
+        let what = "a file that is compressed twice";
+        return Err(Problem::foreign(what, "unpack it once"));
     }
     Ok(inner)
 }
@@ -558,7 +556,7 @@ fn ensure_used(options: &ReadOptions, kind: Option<Kind>) -> Result<(), Problem>
         ),
     ];
     match rules.into_iter().find(|(_, is_unused, _)| *is_unused) {
-        Some((option, _, why)) => Err(Problem::Unused { option, why }),
+        Some((option, _, why)) => Err(Problem::unused(option, why)),
         None => Ok(()),
     }
 }

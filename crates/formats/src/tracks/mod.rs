@@ -50,12 +50,17 @@ pub(crate) fn read(
     options: TrackOptions,
 ) -> Result<NamedGraph, Fault> {
     let Some(kind) = kind(head, whole) else {
-        return Err(Place::Input.fault(Problem::NoTracks));
+        return Err(Place::Input.fault(Problem::new(
+            "no tracks are found in this file",
+            "they come from a COLMAP database or model, Bundler's bundle.out, BAL, NVM, and files of OpenMVG, AliceVision \
+             and OpenSfM; leave out \
+             --tracks to decide a graph of pairs",
+        )));
     };
     let is_model = matches!(kind, TrackFile::Colmap { .. });
     if !options.rigs && !is_model {
         let (option, why) = ("--no-rigs", "such a file holds no rigs");
-        return Err(Place::Input.fault(Problem::Unused { option, why }));
+        return Err(Place::Input.fault(Problem::unused(option, why)));
     }
     ensure_no_spread(options)?;
     let graph = match kind {
@@ -92,7 +97,7 @@ fn ensure_no_spread(options: TrackOptions) -> Result<(), Fault> {
     let (option, why) = ("--max-spread", "this is no COLMAP database");
     match options.max_spread == TrackOptions::default().max_spread {
         true => Ok(()),
-        false => Err(Place::Input.fault(Problem::Unused { option, why })),
+        false => Err(Place::Input.fault(Problem::unused(option, why))),
     }
 }
 

@@ -32,7 +32,7 @@ fn tracks(fields: &mut dyn Fields) -> Result<Tracks, Fault> {
 /// The graph of the model in a folder.
 pub(super) fn folder(folder: &Path, options: TrackOptions) -> Result<NamedGraph, Fault> {
     let Some(encoding) = model::encoding_in(folder) else {
-        return Err(Place::Input.fault(Problem::NoModel));
+        return Err(Place::Input.fault(model::no_model()));
     };
     let tracks = Part::Points.read(folder, encoding, tracks)?;
     graph(Some(folder), encoding, &tracks, options)
@@ -50,7 +50,7 @@ pub(super) fn beside(
     let tracks = match (part, with_points) {
         (Part::Points, _) => tracks(&mut *model::fields(input, encoding))?,
         (_, Some(folder)) => Part::Points.read(folder, encoding, tracks)?,
-        (_, None) => return Err(Place::Input.fault(Problem::NoModel)),
+        (_, None) => return Err(Place::Input.fault(model::no_model())),
     };
     graph(folder, encoding, &tracks, options)
 }

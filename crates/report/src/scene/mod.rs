@@ -178,8 +178,10 @@ impl Scene {
 
     /// Where each node is drawn, x to the right and y down; `None` if nodes are not drawn one by one.
     pub fn points(&self) -> Option<Vec<[f64; 2]>> {
-        self.is_whole()
-            .then(|| self.placed(self.names.len(), &self.edges).points)
+        self.is_whole().then(|| {
+            let (nodes, edges) = self.shown();
+            self.placed(nodes.len(), &edges).points
+        })
     }
 
     /// Whether all nodes are drawn.

@@ -2,7 +2,6 @@
 
 mod verdicts;
 
-use crate::progress::Progress;
 use crate::report::verdicts as of_verdicts;
 use anyhow::{Context, Result, bail};
 use clap::{Args, Subcommand};
@@ -15,6 +14,7 @@ use std::time::Instant;
 use viewcert::linalg::prime::DEFAULT_PRIME;
 use viewcert_catalog::mine::{COLUMNS, Entry};
 use viewcert_formats::csv;
+use viewcert_lab_catalog::progress::Progress;
 use viewcert_lab_catalog::shard_files::{CANDIDATES, MOST_CANDIDATES};
 use viewcert_lab_catalog::work::Listener;
 use viewcert_lab_catalog::{Files, Recheck, Sample, Settings, Shard, Source, Work, merged};

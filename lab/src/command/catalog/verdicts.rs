@@ -1,13 +1,13 @@
 //! `viewcert-lab catalog --verdicts`: how many candidates are finite solvable, kernel by kernel.
 
 use super::{Arguments, note};
-use crate::progress::Progress;
 use crate::report::verdicts::{self, VerdictRow};
 use anyhow::{Context, Result};
 use std::io::Write;
 use std::ops::RangeInclusive;
 use std::time::Instant;
 use viewcert::decide::Options;
+use viewcert_lab_catalog::progress::Progress;
 use viewcert_lab_catalog::verdict_files::{Blocks, KERNELS};
 use viewcert_session::Session;
 use viewcert_session::exit::GOOD;

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 const INTERVAL: Duration = Duration::from_secs(10);
 
 /// Progress of a run.
-pub(crate) struct Progress {
+pub struct Progress {
     bar: ProgressBar,
     plain: Option<Mutex<Plain>>,
 }
@@ -24,7 +24,7 @@ struct Plain {
 
 impl Progress {
     /// Starts at nothing out of `total`, if that is known, of `what`: "candidates".
-    pub(crate) fn new(what: &'static str, total: Option<u64>) -> Self {
+    pub fn new(what: &'static str, total: Option<u64>) -> Self {
         if std::io::stderr().is_terminal() {
             let bar = match total {
                 Some(total) => ProgressBar::new(total),
@@ -54,7 +54,7 @@ impl Progress {
     }
 
     /// Counts what has been done since the last call.
-    pub(crate) fn done(&self, more: u64) {
+    pub fn done(&self, more: u64) {
         self.bar.inc(more);
         let Some(plain) = &self.plain else {
             return;
@@ -84,7 +84,7 @@ impl Progress {
     }
 
     /// Takes the bar away.
-    pub(crate) fn finish(&self) {
+    pub fn finish(&self) {
         self.bar.finish_and_clear();
     }
 }
