@@ -11,6 +11,7 @@ use std::path::Path;
 
 use super::places::{Given, GivenCameras, Read, all, matrix};
 use super::table::Table;
+use super::{CAMERA_LINES, mixed, no_numbers};
 use crate::cameras::{Cameras, for_each_line};
 use crate::edge_list::BYTE_ORDER_MARK;
 use crate::edge_list::fields::{Field, split};
@@ -142,7 +143,7 @@ fn of_text(text: impl io::Read, input: &NamedGraph) -> Result<Read, Fault> {
                 };
                 let (&first, rest) = fields
                     .split_first()
-                    .ok_or_else(|| Problem::new("the line names no camera", LINES))?;
+                    .ok_or_else(|| Problem::new("the line names no camera", CAMERA_LINES))?;
                 (expected, first, rest.to_vec())
             }
         };
@@ -167,23 +168,6 @@ fn of_text(text: impl io::Read, input: &NamedGraph) -> Result<Read, Fault> {
     all(given, input, Vec::new()).map_err(|problem| Place::Input.fault(problem))
 }
 
-const LINES: &str = "write `camera`, a name and the 12 entries of its matrix, row by row; or `pose`, a name, a quaternion (real \
-                     part first) and a translation; or `centre`, a name and three coordinates";
-
-/// A line with a camera that has another number of fields.
-pub(super) fn no_numbers(expected: usize, found: usize) -> Problem {
-    let what = format!("{found} numbers stand behind the camera, and {expected} are expected");
-    Problem::new(what, LINES)
-}
-
-/// Cameras and centres, or something else besides cameras, in one file.
-pub(super) fn mixed(what: &str) -> Problem {
-    Problem::new(
-        format!("lines with {what} stand beside others"),
-        "give all cameras as matrices and poses, or all as centres, and what else is known in a run of its own",
-    )
-}
-
 fn twice(camera: &str) -> Problem {
     Problem::new(
         format!("the camera of `{}` is given twice", shown(camera)),
@@ -198,7 +182,7 @@ fn number(field: Field, line: &str) -> Result<Rational, Problem> {
         let text = shown(&text);
         Problem::new(
             format!("`{text}` is no decimal number with an exponent up to 400, and no fraction"),
-            LINES,
+            CAMERA_LINES,
         )
     })
 }

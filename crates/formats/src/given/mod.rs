@@ -216,6 +216,24 @@ const DISPLACEMENT: &str = "displacement";
 /// The first word of a line with a known position: a camera follows, and perhaps where it is.
 const POSITION: &str = "position";
 
+/// How a line with a camera is written.
+const CAMERA_LINES: &str = "write `camera`, a name and the 12 entries of its matrix, row by row; or `pose`, a name, a quaternion (real \
+                     part first) and a translation; or `centre`, a name and three coordinates";
+
+/// A line with a camera that has another number of fields.
+fn no_numbers(expected: usize, found: usize) -> Problem {
+    let what = format!("{found} numbers stand behind the camera, and {expected} are expected");
+    Problem::new(what, CAMERA_LINES)
+}
+
+/// Cameras and centres, or something else besides cameras, in one file.
+fn mixed(what: &str) -> Problem {
+    Problem::new(
+        format!("lines with {what} stand beside others"),
+        "give all cameras as matrices and poses, or all as centres, and what else is known in a run of its own",
+    )
+}
+
 /// How a file of what is given is written.
 const LINES: &str = "write on each line `part` and cameras whose relative position is known, `displacement` and two cameras, \
                      or `position` and a camera";

@@ -110,7 +110,7 @@ pub(super) fn all(
     let places = match (cameras.is_empty(), centres.is_empty()) {
         (_, true) => Places::Cameras(cameras),
         (true, _) => Places::Centres(centres),
-        _ => return Err(super::cameras::mixed("centres")),
+        _ => return Err(super::mixed("centres")),
     };
     Ok(Read { places, notes })
 }

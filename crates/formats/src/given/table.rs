@@ -47,7 +47,7 @@ impl Table {
         let (expected, found) = (self.order.len(), fields.len());
         match expected == found {
             true => Ok(self.order.iter().map(|&k| fields[k]).collect()),
-            false => Err(super::cameras::no_numbers(expected, found)),
+            false => Err(super::no_numbers(expected, found)),
         }
     }
 }

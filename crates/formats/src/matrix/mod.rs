@@ -62,7 +62,8 @@ pub(super) fn graph(
     let zeros = all - entries.len();
     let (least, most) = range(values(&entries));
     // Rotations, translations and fundamental matrices have entries of both signs.
-    if least < 0.0 && 0.0 < most {
+    let may_have_blocks = size > 4 && (size.is_multiple_of(3) || size.is_multiple_of(4));
+    if may_have_blocks && least < 0.0 && 0.0 < most {
         return Err(Problem::new(
             "some entries are negative, as in blocks of fundamental matrices or poses",
             ONES,
