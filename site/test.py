@@ -83,6 +83,10 @@ def checks(browser, site, slugs):
             right(len(answers) == 2, f"{slug}: {answers}")
             for said, text in answers:
                 right(said == code and word in text, f"{slug}, {button}: {answers}")
+        # What is no certificate is neither verified nor rejected.
+        browser.run("document.getElementById('certificate-text').value = 'JFIF'; document.getElementById('check-now').click()")
+        browser.wait("!!document.querySelector('.answer.undecided')")
+        right("Nothing was decided" in browser.run("document.querySelector('.answer').textContent"), f"{slug}: a text that is no certificate")
         quiet(browser, slug)
     print(f"checked in the page: {len(slugs)} graphs, each accepted and its tampered copy rejected by two checkers")
 
@@ -137,18 +141,36 @@ def own_graphs(browser, site, verify):
     for _ in range(12):
         nodes = draw.randrange(3, 14)
         pairs = [(i, j) for j in range(nodes) for i in range(j) if draw.random() < 0.35 or i + 1 == j]
-        inputs.append("".join(f"{i} {j}\n" for i, j in pairs))
+        inputs.append("# viewcert pairs\n" + "".join(f"{i} {j}\n" for i, j in pairs))
     for text in inputs:
         browser.open(site / "graph.html", "#" + urllib.parse.quote(text))
-        label = browser.run("document.querySelector('#found dl')?.dataset.label")
+        browser.wait("document.querySelector('#found dl')?.dataset.label")
+        label = browser.run("document.querySelector('#found dl').dataset.label")
         given = [text] if text.startswith("vg.") else ["-"]
-        # Some of these pairs would be more likely a table.
-        listed = "# viewcert pairs\n" + text if "\n" in text else text
-        answer = json.loads(subprocess.run([verify, "label", "--json", *given], input=listed, capture_output=True, text=True, check=True).stdout)
+        answer = json.loads(subprocess.run([verify, "label", "--json", *given], input=text, capture_output=True, text=True, check=True).stdout)
         right(label == answer["label"], f"{text!r}: {label} on the page, {answer['label']} by the program")
         shown = browser.run("document.getElementById('found').innerText")
         right(f"automorphisms\n{answer['automorphisms']}" in shown and f"girth\n{answer['girth'] or 'no cycle'}" in shown, f"{text!r}: {shown}")
+    # What the program refuses the page refuses, in its words; and what it reads the page reads.
+    refused = ["BW\nBw", "K2,3", "10 cameras", "two solutions", "a a", "D", "a b\nb c\nd", "vg.5.6.56"]
+    for text in refused + ["a b 12\nb c 9\na c 7", "source,target\nx,y\ny,z"]:
+        browser.open(site / "graph.html", "#" + urllib.parse.quote(text))
+        browser.wait("document.getElementById('message').textContent || document.querySelector('#found dl')?.dataset.label")
+        message = browser.run("document.getElementById('message').textContent")
+        run = subprocess.run([verify, *(["label", text] if text.startswith("vg.") else ["convert", "-"])], input=text + "\n", capture_output=True, text=True)
+        right((run.returncode == 2) == bool(message) == (text in refused), f"{text!r}: {message} on the page, {run.stderr} by the program")
+        right(text.startswith("vg.") or re.sub(r"^line \d+: ", "", message) in run.stderr, f"{text!r}: {message} on the page, {run.stderr} by the program")
+    browser.open(site / "graph.html", "#%E0%A4%A")
+    right("holds no text" in browser.run("document.getElementById('message').textContent"), "an address that is no text")
+    browser.open(site / "graph.html")
+    for key in ("add", "add", 0, 1):
+        browser.run(f"document.getElementById('{key}').click()" if key == "add" else f"document.querySelector('#canvas [data-node=\"{key}\"]').dispatchEvent(new KeyboardEvent('keydown', {{key: 'Enter', bubbles: true}}))")
+        if key == "add":
+            browser.run("decide()")
+            right("One pair" in browser.run("document.getElementById('status').textContent"), "cameras without a pair are not decided")
+    right(browser.run("document.querySelector('#found dl').dataset.label") == "vg.2.1.1", "a pair that was drawn by keyboard")
     browser.open(site / "graph.html", "#DFw")
+    browser.wait("!!document.querySelector('#found a')")
     right(browser.run("document.querySelector('#found a').getAttribute('href')") == "graphs/vg.5.6.55.html", "K2,3 has its page")
     browser.run("document.getElementById('empty').click()")
     for x, y in ((100, 100), (200, 100), (150, 200)):
@@ -157,9 +179,6 @@ def own_graphs(browser, site, verify):
         for v in (a, b):
             browser.run(f"document.querySelector('#canvas [data-node=\"{v}\"]').dispatchEvent(new MouseEvent('click', {{bubbles: true}}))")
     right(browser.run("document.querySelector('#found dl').dataset.label") == "vg.3.3.1", "a triangle that was drawn")
-    for bad, word in (("vg.5.6.56", "vg.5.6.14"), ("a a", "itself"), ("D", "graph6")):
-        browser.open(site / "graph.html", "#" + urllib.parse.quote(bad))
-        right(word in browser.run("document.getElementById('message').textContent"), f"{bad} is refused")
     print(f"own graphs: {len(inputs)} labels are those of the program")
 
 
@@ -258,7 +277,7 @@ def decided(browser, site, verify, seed, count=400):
     right(f"{len(certificates)} verified, 0 rejected" in second.stdout, second.stdout + second.stderr)
     taken = time.monotonic() - begin
     # One that counting refutes, one by names with a camera that has no pair, one with more cameras than labels have.
-    for given in ("H?AFBo}", "a b\nb c\nc a\nc d\nd e\ne c\nf", graphs.to_graph6(18, [(i, (i + k) % 18) for i in range(18) for k in (1, 2)])):
+    for given in ("H?AFBo}", "# viewcert pairs\na b\nb c\nc a\nc d\nd e\ne c\nf", "K?KH?`ShAEOW", graphs.to_graph6(18, [(i, (i + k) % 18) for i in range(18) for k in (1, 2)])):
         browser.open(site / "graph.html", "#" + urllib.parse.quote(given))
         browser.wait("document.getElementById('written').dataset.done")
         status = browser.run("document.getElementById('status').textContent")
@@ -268,13 +287,15 @@ def decided(browser, site, verify, seed, count=400):
         shown = dict(browser.run("[...document.querySelectorAll('#written [data-from]')].map((e) => [e.dataset.from, e.dataset.value])"))
         wanted = {"/verdict": report["verdict"], "/rank": str(report["rank"]), "/graph/edges": str(report["graph"]["edges"])}
         right(wanted.items() <= shown.items(), f"{given!r}: {shown}")
+        badges = browser.run("[...document.querySelectorAll('#found .badge')].map((badge) => badge.textContent)")
+        right(badges == [report["verdict"].replace("-", " ")], f"{given!r}: {badges}, and verify says {report['verdict']}")
         for button, code, word in (("check-now", "0", "VERIFIED"), ("tamper", "1", "REJECTED")):
             browser.run(f"document.getElementById('{button}').click()")
             browser.wait("document.querySelectorAll('.answer').length === 2 || document.querySelector('.answer[data-code=\"2\"]')")
             answers = browser.run("[...document.querySelectorAll('.answer')].map((a) => [a.dataset.code, a.textContent])")
             right(len(answers) == 2 and all(said == code and word in text for said, text in answers), f"{given!r}, {button}: {answers}")
         quiet(browser, "graph.html")
-    print(f"decided in the page: {len(lines)} graphs as by the program, {len(certificates)} certificates accepted ({taken:.1f} s); 3 pages, each checked and a tampered copy rejected (seed {seed})")
+    print(f"decided in the page: {len(lines)} graphs as by the program, {len(certificates)} certificates accepted ({taken:.1f} s); 4 pages, each checked and a tampered copy rejected (seed {seed})")
 
 
 def libraries(browser, site):

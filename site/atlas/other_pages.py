@@ -82,9 +82,9 @@ def search_page():
 
 def your_page():
     body = """<h1>Your graph</h1>
-<p>Paste a line of graph6, a label, or a list of pairs, one pair of names a line; or draw. It is decided in your browser, by the same program that has made the atlas: verdict, every camera model, contraction, certificate. Nothing leaves this machine.</p>
+<p>Paste a line of graph6, a label, or a <a href="docs/input.html">list of pairs</a>, one pair of names a line; or draw. The program that made the atlas reads and decides it in your browser: verdict, every camera model, contraction, certificate. Nothing leaves this machine.</p>
 <div class="two"><form id="read"><label for="pasted">graph6, a label, or pairs</label><textarea id="pasted" rows="9" spellcheck="false" placeholder="a x&#10;a y&#10;a z&#10;b x&#10;b y&#10;b z"></textarea><p class="buttons"><button class="main">Decide</button></p><p id="message" role="alert"></p></form>
-<div><p id="how">Click on the ground for a camera, on one camera and then on another for a pair (or to take it away).</p><svg id="canvas" viewBox="0 0 640 300" role="img" aria-label="The drawing" aria-describedby="how"></svg><p class="buttons"><button type="button" id="empty">Begin anew</button></p></div></div>
+<div><p id="how">Click on the ground for a camera, on one camera and then on another for a pair (or to take it away). By keyboard: Add a camera, Tab to a camera, Enter.</p><svg id="canvas" viewBox="0 0 640 300" role="group" aria-label="The drawing" aria-describedby="how"></svg><p class="buttons"><button type="button" id="add">Add a camera</button> <button type="button" id="empty">Begin anew</button></p></div></div>
 <section aria-live="polite"><h2>What it is</h2><div id="found"></div><p><span id="status" role="status"></span> <button type="button" id="stop" hidden>Stop</button></p></section>
 <div id="written"></div>"""
     scripts = ("terms.js", "site.js", "rows.js", "graphs.js", "check.js", "program.js", "yours.js")

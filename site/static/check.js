@@ -70,12 +70,13 @@ with contextlib.redirect_stdout(shown), contextlib.redirect_stderr(shown):
 
 function answer(place, who, { code, out }) {
   const div = document.createElement("div");
-  div.className = `answer ${code === 0 ? "verified" : "rejected"}`;
+  div.className = `answer ${{ 0: "verified", 1: "rejected" }[code] ?? "undecided"}`;
   div.dataset.code = code;
   const head = document.createElement("h3"), pre = document.createElement("pre");
   head.textContent = who;
   pre.textContent = out.trim();
   div.append(head, pre);
+  if (code !== 0 && code !== 1) div.append("Nothing was decided. The program viewcert-check takes what is too large for this page, and a certificate that needs its graph takes the graph as a second file.");
   place.append(div);
 }
 
@@ -84,16 +85,13 @@ const PROVED = "The checker that is proved correct in Coq (proofs/), on its own 
 
 async function checkAll(certificate, pairs, proof) {
   const place = document.getElementById("answers");
-  place.replaceChildren("Python is starting; the first time takes some seconds …");
-  try {
-    const found = await second(certificate, pairs);
-    const verified = proof ? await proved(pairs, proof) : null;
-    place.replaceChildren();
-    answer(place, SECOND, found);
-    if (verified) answer(place, PROVED, verified);
-  } catch (error) {
-    place.replaceChildren();
-    answer(place, "No checker could run", { code: 2, out: String(error) });
+  const wait = document.createElement("p");
+  wait.textContent = "Python is starting; the first time takes some seconds …";
+  place.replaceChildren(wait);
+  for (const [who, run] of [[SECOND, () => second(certificate, pairs)], ...(proof ? [[PROVED, () => proved(pairs, proof)]] : [])]) {
+    const found = await run().catch((error) => ({ code: 2, out: `this checker did not run: ${error}` }));
+    wait.remove();
+    answer(place, who, found);
   }
 }
 

@@ -2,19 +2,6 @@
 // Small graphs in the page: graph6, lists of pairs, the greatest relabelling and the label (docs/catalog.md, Labels).
 const MOST_NODES = 16;
 
-function ofGraph6(line) {
-  line = line.trim().replace(/^>>graph6<</, "");
-  if (!/^[?-~]+$/.test(line) || line.startsWith("~~")) throw new Error("this is no line of graph6");
-  const long = line.startsWith("~"), nodes = [...line.slice(long ? 1 : 0, long ? 4 : 1)].reduce((all, c) => 64 * all + c.charCodeAt(0) - 63, 0);
-  const bits = [...line.slice(long ? 4 : 1)].map((c) => (c.charCodeAt(0) - 63).toString(2).padStart(6, "0")).join("");
-  const places = (nodes * (nodes - 1)) / 2;
-  if (bits.length !== 6 * Math.ceil(places / 6) || /1/.test(bits.slice(places))) throw new Error("this is no line of graph6");
-  const pairs = [];
-  let k = 0;
-  for (let j = 1; j < nodes; j++) for (let i = 0; i < j; i++) if (bits[k++] === "1") pairs.push([i, j]);
-  return { nodes, pairs };
-}
-
 function toGraph6({ nodes, pairs }) {
   const present = new Set(pairs.map(([i, j]) => `${Math.min(i, j)},${Math.max(i, j)}`));
   let bits = "";
@@ -24,22 +11,19 @@ function toGraph6({ nodes, pairs }) {
   return String.fromCharCode(...sixes.map((six) => six + 63)) + (bits.match(/.{6}/g) ?? []).map((six) => String.fromCharCode(parseInt(six, 2) + 63)).join("");
 }
 
-// A line of graph6, a label, or pairs of names, one pair a line; a camera without pairs stands alone in its line.
-function readGraph(input) {
-  const lines = input.split("\n").map((line) => line.replace(/[#%].*$/, "").trim()).filter(Boolean);
-  if (!lines.length) throw new Error("nothing is there to read");
-  if (lines.length === 1 && !/[\s,]/.test(lines[0])) return lines[0].startsWith("vg.") ? ofLabel(lines[0]) : ofGraph6(lines[0]);
-  const numbers = new Map(), pairs = [];
-  const number = (name) => numbers.get(name) ?? (numbers.set(name, numbers.size), numbers.size - 1);
-  for (const line of lines) {
-    const names = line.split(/[\s,;]+/);
-    if (names.length === 1) { number(names[0]); continue; }
-    if (names.length !== 2) throw new Error(`a pair of names, or one name, is expected in “${line}”`);
-    if (names[0] === names[1]) throw new Error(`“${line}” is a pair of a camera with itself`);
-    pairs.push(names.map(number));
+// The pairs that `verify convert` writes: a comment with the name of each node, pairs, and nodes without any.
+function ofConverted(lines) {
+  const names = [], pairs = [];
+  let nodes = 0;
+  for (const line of lines.split("\n").filter(Boolean)) {
+    const [, node, name] = /^# (\d+) (.*)$/.exec(line) ?? [];
+    if (node) names[node] = name;
+    if (line.startsWith("#")) continue;
+    const ends = line.split(" ").map(Number);
+    nodes = Math.max(nodes, ...ends.map((end) => end + 1));
+    if (ends.length === 2) pairs.push(ends);
   }
-  const distinct = new Map(pairs.map(([i, j]) => [`${Math.min(i, j)},${Math.max(i, j)}`, [Math.min(i, j), Math.max(i, j)]]));
-  return { nodes: numbers.size, pairs: [...distinct.values()], names: [...numbers.keys()] };
+  return { nodes, pairs, names: names.length ? names : null };
 }
 
 function neighbours({ nodes, pairs }) {
@@ -124,4 +108,4 @@ function girthOf(graph) {
   return girth;
 }
 
-if (typeof module !== "undefined") module.exports = { ofGraph6, toGraph6, readGraph, greatest, girthOf, labelOf, ofLabel };
+if (typeof module !== "undefined") module.exports = { ofConverted, toGraph6, greatest, girthOf, labelOf, ofLabel };

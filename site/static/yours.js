@@ -49,7 +49,8 @@ function paint() {
     canvas.append(element("line", { x1: a[0], y1: a[1], x2: b[0], y2: b[1], stroke: "#4477aa", "stroke-width": 2.5 }));
   }
   drawn.places.forEach(([x, y], v) => {
-    canvas.append(element("circle", { cx: x, cy: y, r: 11, fill: drawn.chosen === v ? "#ee6677" : "#4477aa", stroke: "#fff", "data-node": v }));
+    const chosen = drawn.chosen === v;
+    canvas.append(element("circle", { cx: x, cy: y, r: 11, fill: chosen ? "#ee6677" : "#4477aa", stroke: "#fff", "data-node": v, tabindex: 0, role: "button", "aria-label": `camera ${v}`, "aria-pressed": chosen }));
     canvas.append(element("text", { x, y, class: "number", style: "font-size: 11px; pointer-events: none" }, String(v)));
   });
 }
@@ -101,6 +102,7 @@ async function decide() {
   id("stop").hidden = !nodes;
   id("status").textContent = "";
   if (!nodes) return;
+  if (!pairs.length) { id("status").textContent = "One pair is needed."; id("stop").hidden = true; return; }
   const graph6 = toGraph6(drawn), said = {};
   const current = () => mine === asked;
   const status = (words) => { if (current()) id("status").textContent = words; };
@@ -113,10 +115,12 @@ async function decide() {
   };
   try {
     status("The program is starting …");
-    tellVerdict(JSON.parse(await ask("report", ["--json", "--components", "--solutions=off", "-"])));
+    const first = await ask("report", ["--json", "--components", "--solutions=off", "-"]);
+    if (current()) tellVerdict(JSON.parse(first));
     status("Decided. Its solutions are being counted …");
     await ask("report", ["--json", "--components", "-"]);
     const report = JSON.parse(said.report);
+    if (current()) tellVerdict(report);
     status("Decided. Its certificate, proof and picture are being made …");
     await ask("certificate", ["-", "--certificate", "-"]);
     await ask("models", ["models", "--json", "-"]);
@@ -141,12 +145,15 @@ async function decide() {
   if (current()) { id("stop").hidden = true; id("written").dataset.done = mine; }
 }
 
+// The verdict of the last run, in the place of that before it.
 function tellVerdict(report) {
   const words = document.createElement("p"), badge = document.createElement("span");
   const [word, kind] = { solvable: ["solvable", "good"], "finite-solvable": ["finite solvable", "fair"], "not-finite-solvable": ["not finite solvable", "bad"] }[report.verdict];
   badge.className = `badge ${kind}`;
   badge.textContent = word;
   words.append(badge, ` rank ${report.rank} of ${report.rank_required}, ${report.strength === "proof" ? "proved" : `error at most 2^${report.error_log2}`}: ${report.because.replace(/K_\{([\d,]+)\}/g, "K$1")}.`);
+  words.id = "verdict";
+  id("verdict")?.remove();
   id("found").append(words);
 }
 
@@ -179,13 +186,29 @@ function take(graph) {
   decide();
 }
 
+// A label; or any text that `verify` reads, read by it.
+async function graphOf(text) {
+  if (text.startsWith("vg.")) return ofLabel(text);
+  const { code, out, err } = await PROGRAM.run(["convert", "-"], `${text}\n`);
+  if (code) throw new Error(err.trim().replace(/^verify: -(?::(\d+))?: /, (_, line) => (line ? `line ${line}: ` : "")));
+  return ofConverted(out);
+}
+
 // Not `read`: by a function of that name Python takes the page for a shell.
-function taken(input) {
+async function taken(input) {
+  const mine = ++asked;
+  clearTimeout(pause);
+  PROGRAM.stop();
+  id("message").textContent = "";
+  id("status").textContent = "The program is starting …";
   try {
-    const graph = readGraph(input);
-    if (graph.nodes > MOST_DRAWN) throw new Error(`graphs with up to ${MOST_DRAWN} cameras are decided here; for larger ones there is the program`);
+    const graph = await graphOf(input.trim());
+    if (mine !== asked) return;
+    if (graph.nodes > MOST_DRAWN) throw new Error(`this page decides graphs of up to ${MOST_DRAWN} cameras; for larger ones there is the program`);
     take(graph);
   } catch (error) {
+    if (mine !== asked) return;
+    id("status").textContent = "";
     id("message").textContent = error.message;
   }
 }
@@ -198,23 +221,43 @@ function joined(i, j) {
   if (at >= 0) drawn.pairs.splice(at, 1); else drawn.pairs.push([a, b]);
 }
 
-id("canvas").addEventListener("click", (event) => {
-  const canvas = id("canvas"), node = event.target.dataset?.node;
-  if (node === undefined) {
-    if (drawn.nodes >= MOST_DRAWN) return;
-    const point = new DOMPoint(event.clientX, event.clientY).matrixTransform(canvas.getScreenCTM().inverse());
-    nodeAdded(point.x, point.y);
-    if (drawn.chosen !== null) joined(drawn.chosen, drawn.nodes - 1);
-    drawn.chosen = null;
-  } else if (drawn.chosen === null) drawn.chosen = +node;
-  else { if (drawn.chosen !== +node) joined(drawn.chosen, +node); drawn.chosen = null; }
+// A camera at a place, joined to the chosen one.
+function placed(x, y) {
+  if (drawn.nodes >= MOST_DRAWN) return;
+  nodeAdded(x, y);
+  if (drawn.chosen !== null) joined(drawn.chosen, drawn.nodes - 1);
+  drawn.chosen = null;
+  changed();
+}
+
+// A camera is chosen, or joined to the chosen one; the keyboard stays on it.
+function pressed(node) {
+  const before = drawn.chosen;
+  if (before !== null && before !== node) joined(before, node);
+  drawn.chosen = before === null ? node : null;
   if (drawn.chosen === null) changed(); else paint();
+  id("canvas").querySelector(`[data-node="${node}"]`).focus();
+}
+
+id("canvas").addEventListener("click", (event) => {
+  const node = event.target.dataset?.node;
+  if (node !== undefined) { pressed(+node); return; }
+  const { x, y } = new DOMPoint(event.clientX, event.clientY).matrixTransform(id("canvas").getScreenCTM().inverse());
+  placed(x, y);
 });
+id("canvas").addEventListener("keydown", (event) => {
+  const node = event.target.dataset?.node;
+  if (node === undefined || ![" ", "Enter"].includes(event.key)) return;
+  event.preventDefault();
+  pressed(+node);
+});
+id("add").addEventListener("click", () => { const turn = 2.4 * drawn.nodes, far = 26 * Math.sqrt(drawn.nodes); placed(320 + far * Math.cos(turn), 150 + 0.55 * far * Math.sin(turn)); });
 id("stop").addEventListener("click", () => PROGRAM.stop());
 id("empty").addEventListener("click", () => take({ nodes: 0, pairs: [] }));
 id("read").addEventListener("submit", (event) => { event.preventDefault(); history.replaceState(null, "", `#${encodeURIComponent(id("pasted").value)}`); taken(id("pasted").value); });
 function fromAddress() {
-  const input = decodeURIComponent(location.hash.slice(1));
+  let input = "";
+  try { input = decodeURIComponent(location.hash.slice(1)); } catch { id("message").textContent = "The address of this page holds no text: paste the graph"; }
   if (!input) return;
   id("pasted").value = input;
   taken(input);
