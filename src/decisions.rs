@@ -20,7 +20,7 @@ use viewcert::watch::Watch;
 use viewcert_advice::priors::Priors;
 use viewcert_advice::{Advice, Shapes};
 use viewcert_formats::NamedGraph;
-use viewcert_report::assumptions::{BaseLines, Scope};
+use viewcert_report::assumptions::{BaseLines, Scope, out_of_planes};
 use viewcert_report::here::HereReport;
 use viewcert_report::intrinsics::IntrinsicsLine;
 use viewcert_report::many::Table;
@@ -181,10 +181,11 @@ impl Work<'_> {
         let name = || input.name.clone();
         let scope = session.watched(|watch| Scope::new(input, verdict, plan.asked, watch));
         let mut scope = scope.with_context(name)?;
-        let (mut here, mut certified) = (None, None);
+        let (mut here, mut open, mut certified) = (None, Vec::new(), None);
         match besides {
             Besides::Nothing => {}
             Besides::Cameras(centres) => {
+                open = here::open(plan.asked, input, centres)?;
                 let decided = session.watched(|watch| here::decide(input, centres, watch))?;
                 here = Some((decided, centres));
             }
@@ -193,7 +194,10 @@ impl Work<'_> {
                 let decide =
                     |watch: &Watch| intrinsics::decide(input, verdict, sensors, certify, watch);
                 let (metric, evidence) = session.watched(decide).with_context(name)?;
-                let mut line = IntrinsicsLine::new(input, sensors, &metric, plan.list_components);
+                let line = IntrinsicsLine::new(input, sensors, &metric, plan.list_components);
+                let line =
+                    session.watched(|watch| out_of_planes(line, &input.graph, verdict, watch));
+                let mut line = line.with_context(name)?;
                 if let Some(most) = plan.priors {
                     let (graph, seed) = (&input.graph, plan.seed);
                     let find =
@@ -213,6 +217,10 @@ impl Work<'_> {
         };
         let time = start.elapsed();
         let written = self.write((input, time), verdict, &scope, own)?;
+        let verdict = &*scope.held(input, verdict);
+        if scope.base_lines().is_some_and(BaseLines::is_determined) {
+            plan.request.ensure_alone("base lines that frames share")?;
+        }
         let advice = session.watched(|_| self.advise(input, verdict));
         let advice = advice.with_context(name)?;
         let is_drawn = plan.products.page.is_some() || plan.products.picture.is_some();
@@ -235,6 +243,7 @@ impl Work<'_> {
                 here,
                 centres,
                 motions: &motions,
+                open: &open,
             }),
         };
         draw(session, &plan.products, &report)?;
@@ -253,16 +262,12 @@ impl Work<'_> {
         if let Some(intrinsics) = scope.intrinsics() {
             return Ok(intrinsics.is_metric());
         }
-        if let Some((here, _)) = here {
+        if let Some(here) = report.here {
             return Ok(here.is_determined());
         }
         Ok(match scope.planar() {
             Some(planar) if plan.asked.planar => planar.is_determined(),
-            _ => {
-                let base_lines = scope.base_lines();
-                verdict.value != Value::NotFiniteSolvable
-                    || base_lines.is_some_and(BaseLines::is_determined)
-            }
+            _ => verdict.value != Value::NotFiniteSolvable,
         })
     }
 

@@ -1,11 +1,12 @@
 //! Cameras that `--given` brings: what is determined at these (docs/theory.md, section 16).
 
-use anyhow::{Result, anyhow};
+use anyhow::{Context, Result, anyhow};
 use std::io::Write;
 use viewcert::Model;
-use viewcert::here::{Centres, Here, HereError, Motion, here};
+use viewcert::here::{Centres, Here, HereError, Motion, here, open_focal_lengths};
 use viewcert::watch::Watch;
 use viewcert_formats::{NamedGraph, centre_error};
+use viewcert_report::assumptions::Asked;
 use viewcert_session::Session;
 
 /// Decides a graph at given cameras.
@@ -17,6 +18,23 @@ pub(super) fn decide(input: &NamedGraph, centres: &Centres, watch: &Watch) -> Re
         HereError::Centre(error) => anyhow!("{}: {}", input.name, centre_error(error, input)),
         other => anyhow!(other).context(input.name.clone()),
     })
+}
+
+/// The nodes whose focal length no pair fixes, if these are unknown.
+///
+/// # Errors
+/// Centres alone, which do not say where optical axes point.
+pub(super) fn open(asked: Asked, input: &NamedGraph, centres: &Centres) -> Result<Vec<u32>> {
+    match asked.focal {
+        false => Ok(Vec::new()),
+        true => open_focal_lengths(&input.graph, centres).with_context(|| {
+            format!(
+                "{}: --model focal: centres do not say where optical axes point, which decides whether pairs fix \
+                 focal lengths; give poses or matrices, or say --model calibrated if focal lengths are known",
+                input.name
+            )
+        }),
+    }
 }
 
 /// What moves, to be drawn: nothing where it cannot be listed, which is said.

@@ -11,6 +11,7 @@ use viewcert::decide::{Options, Verdict};
 use viewcert::intrinsics::{Certified, Metric, Sensors};
 use viewcert::watch::Watch;
 use viewcert_formats::{NamedGraph, intrinsics, read_intrinsics};
+use viewcert_report::assumptions::out_of_planes;
 use viewcert_report::intrinsics::IntrinsicsLine;
 use viewcert_session::Session;
 
@@ -99,5 +100,7 @@ pub(super) fn of_database(
     let seed = Options::default().seed;
     let metric =
         session.watched(|watch| Metric::with_sensors(&input.graph, verdict, &found, seed, watch));
-    Ok(Ok(IntrinsicsLine::new(input, &found, &metric?, false)))
+    let line = IntrinsicsLine::new(input, &found, &metric?, false);
+    let line = session.watched(|watch| out_of_planes(line, &input.graph, verdict, watch));
+    Ok(Ok(line?))
 }

@@ -13,6 +13,7 @@ use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use viewcert::Known;
+use viewcert::Verdict;
 use viewcert::decide::{Options, Question, decide};
 use viewcert::geometry::model::Model;
 use viewcert_advice::export::shell;
@@ -21,7 +22,7 @@ use viewcert_formats::colmap::{Database, DatabaseError};
 use viewcert_formats::error::{Problem, ReadError};
 use viewcert_formats::{NamedGraph, ReadOptions, open_database, read_graphs, with_rigs};
 use viewcert_report::Report;
-use viewcert_report::assumptions::{self, BaseLines, Scope};
+use viewcert_report::assumptions::{self, Scope};
 use viewcert_report::database::other_mapper;
 use viewcert_report::next::next;
 use viewcert_report::overview::{Overview, Wanted};
@@ -264,58 +265,50 @@ fn overview(
         (None, Some((input, [_, calibrated]))) => (*input, calibrated),
         (None, None) => bail!("{}: neither pairs nor tracks", path.display()),
     };
-    let scope = tracks.as_ref().map(|(input, verdict)| {
-        Scope::new(
-            input,
-            verdict,
-            assumptions::Asked::default(),
-            &session.shown_watch(),
-        )
+    let scope_of = |input: &NamedGraph, verdict: &Verdict| {
+        let asked = assumptions::Asked::default();
+        let scope = session.watched(|watch| Scope::new(input, verdict, asked, watch));
+        scope.with_context(|| input.name.clone())
+    };
+    let of_pairs = pairs.as_ref().map(|(input, [projective, calibrated])| {
+        Ok::<_, anyhow::Error>([scope_of(input, projective)?, scope_of(input, calibrated)?])
     });
-    let scope = scope.transpose();
-    session.hide();
-    let scope = scope
-        .with_context(|| input.name.clone())?
-        .unwrap_or_default();
-    let by_frames = scope.base_lines().is_some_and(BaseLines::is_determined);
+    let of_pairs = of_pairs.transpose()?.unwrap_or_default();
+    let scope = tracks
+        .as_ref()
+        .map(|(input, verdict)| scope_of(input, verdict));
+    let scope = scope.transpose()?.unwrap_or_default();
+    let verdict = &*scope.held(input, verdict);
+    let tracks = tracks.as_ref().map(|(input, _)| (*input, verdict));
     let request = Request {
         suggest: Some(SUGGESTED),
         ..Request::default()
     };
     let (outputs, seed) = (session.outputs(), Options::default().seed);
     let (shapes, watch) = (&mut Shapes::default(), session.watch());
-    // What frames hold together has no joints, and nothing is to be matched for them.
-    let advice = match by_frames {
-        true => Ok(Advice::default()),
-        false => request.advise(outputs, input, verdict, seed, shapes, watch),
-    };
+    let advice = request.advise(outputs, input, verdict, seed, shapes, watch);
     session.hide();
     let advice = advice.with_context(|| input.name.clone())?;
-    let of_pairs = source.pairs.as_ref().unwrap_or(input);
+    let images = source.pairs.as_ref().unwrap_or(input);
     let frames = input.frames.as_ref();
     let database = source.database.as_ref();
-    let of_tracks = tracks.as_ref().map(|(input, verdict)| Tracks {
+    let of_tracks = tracks.map(|(input, verdict)| Tracks {
         input,
         verdict,
         options: wish.of_tracks.tracks.unwrap_or_default(),
     });
-    let forecast = foreseen(database, of_pairs, of_tracks, session.shown_watch());
+    let forecast = foreseen(database, images, of_tracks, session.shown_watch());
     session.hide();
-    let (mut mappers, narrow) = forecast?;
-    let models = mappers.iter_mut().filter(|_| by_frames);
-    for model in models.flat_map(|mappers| &mut mappers.global.models) {
-        model.parts = vec![model.images.clone()];
-    }
+    let (mappers, narrow) = forecast?;
     let no_joints = Advice::default();
-    let any_scope = Scope::default();
-    let report = |input, verdict, advice| Report {
+    let report = |input, verdict, advice, scope| Report {
         input,
         verdict,
         rational: false,
         list_components: false,
         time: Duration::ZERO,
         advice,
-        scope: &any_scope,
+        scope,
         proof: None,
         here: None,
     };
@@ -323,20 +316,17 @@ fn overview(
         name: &input.name,
         notes: notes(&source),
         read: &input.read,
-        pairs: pairs
-            .as_ref()
-            .map(|(input, verdicts)| verdicts.each_ref().map(|v| report(*input, v, &no_joints))),
-        intrinsics,
-        tracks: tracks.as_ref().map(|(input, verdict)| Report {
-            scope: &scope,
-            ..report(*input, verdict, &advice)
+        pairs: pairs.as_ref().map(|(input, verdicts)| {
+            [0, 1].map(|k| report(*input, &verdicts[k], &no_joints, &of_pairs[k]))
         }),
+        intrinsics,
+        tracks: tracks.map(|(input, verdict)| report(input, verdict, &advice, &scope)),
         no_tracks: source.tracks.as_ref().err().map(String::as_str),
         joints: &advice,
         // Where images of a frame are one camera, images have other numbers than cameras.
         wanted: Wanted::of(match frames {
             Some(frames) if !frames.together.is_empty() => input,
-            _ => of_pairs,
+            _ => images,
         }),
         mappers,
         narrow,

@@ -37,8 +37,8 @@ pub(super) struct VerifyArguments {
     /// How the rank is found.
     #[arg(long, value_enum, default_value_t = MethodName::Bodies)]
     method: MethodName,
-    /// What the graph determines if all centres lie in one plane (one flying height, a vehicle): the
-    /// exit code is that of this case.
+    /// What the graph determines if all centres lie in one plane, and everything else is in general
+    /// position: the exit code is that of this case. With --model focal axes must not be parallel or in that plane.
     #[arg(long, conflicts_with = "tracks")]
     planar: bool,
     #[command(flatten)]

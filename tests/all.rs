@@ -26,6 +26,7 @@ mod formulas;
 mod golden;
 mod here;
 mod house;
+mod hypotheses;
 mod intrinsics;
 mod intrinsics_certificates;
 mod json;

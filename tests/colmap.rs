@@ -408,7 +408,7 @@ fn the_threshold_and_what_is_left_out() {
             "1 verified pair of 3 has fewer than 15 inliers and is not used (--min-inliers)",
             "ignored: 1 verified pair with an image that the database does not have",
             "ignored: 1 verified pair of an image with itself",
-            "1 image is in no pair that is used: it is a camera that nothing determines",
+            "1 image is in no pair that is used: no pair determines it",
             "the numbers of the images are not in the order of their names",
         ]
     );
@@ -715,7 +715,7 @@ fn tracks_of_a_database() {
         "dropped: 1 track with two features in one image, more than 10 pixels apart, or not known \
          where",
         "not counted: 15 tracks in fewer than 3 images (--min-views)",
-        "1 camera sees no track that counts: in no component",
+        "1 camera sees no track that counts: no track determines it",
     ] {
         assert!(notes(&line).contains(&note), "{line}");
     }
@@ -1235,7 +1235,19 @@ fn advice_speaks_of_frames() {
         keeps_to("overview", &run, &["joints", "suggestions"]).remove(0)
     };
     let whole = overview(&stereo(Some([0.5, 0.0, 0.0])));
-    assert_eq!(whole["determined"], true);
+    // All are determined, if frames turn.
+    let condition = "if every pair is right and frames turn against each other";
+    assert_eq!(
+        (&whole["determined"], &whole["condition"]),
+        (&json!(false), &json!(condition))
+    );
+    assert_eq!(
+        whole["mappers"]["global"]["models"][0]["parts"]
+            .as_array()
+            .unwrap()
+            .len(),
+        1
+    );
     assert_eq!(whole["mappers"]["global"]["models"][0]["frames"], 2);
     assert_eq!(whole["suggestions"], json!([]));
     // One frame leads from the left images to the right ones.
@@ -1378,27 +1390,27 @@ fn frames_share_base_lines_that_are_not_known() {
     let made = uncalibrated(3, true);
     let path = made.path();
     let line = json_of(&path, &["--tracks"]);
-    assert_eq!(line["verdict"], "not-finite-solvable");
+    assert_eq!(line["verdict"], "solvable");
     let found = &line["base_lines"];
+    let condition = "if every pair is right and frames turn about more than one axis";
+    assert_eq!(line["condition"], condition);
     // 40 points, 3 frames and a base line.
     let expected = json!({ "frames": 3, "unknown": 1, "verdict": "solvable",
-        "condition": "if every pair is right", "rank": 128, "rank_at_most": 128, "rank_required": 128, "parts": 1, "parts_proved": true, "about_one_axis": false });
+        "condition": condition, "rank": 128, "rank_at_most": 128, "rank_required": 128, "parts": 1,
+        "parts_proved": true, "about_one_axis": false, "without_turns": false });
     assert_eq!(found, &expected);
     let run = verify(&["--tracks", text(&path)]);
     assert_eq!(run.code, 0, "{}", run.err);
     let said = "  base lines  1 unknown base line, the same in 3 frames: solvable: ";
     assert!(run.out.contains(said), "{}", run.out);
-    // The overview goes by it: one part, nothing to match.
+    // The overview goes by it: one part, nothing to match; and no promise, as frames may not turn.
     let run = verify(&["overview", text(&path)]);
-    assert!(run.code == 0 && run.out.contains(said), "{}", run.out);
+    assert!(run.code == 1 && run.out.contains(said), "{}", run.out);
     let screen = verify(&["overview", "--json", text(&path)])
         .json()
         .remove(0);
     assert_eq!(&screen["tracks"]["base_lines"], found);
-    assert_eq!(
-        screen["tracks"]["positions"]["verdict"],
-        "not-finite-solvable"
-    );
+    assert_eq!(screen["tracks"]["positions"]["verdict"], "solvable");
     assert_eq!(
         screen["mappers"]["global"]["models"][0]["parts"]
             .as_array()

@@ -321,14 +321,14 @@ fn focal_lengths_that_are_guesses() {
             &[guess(1)],
             [1; 6],
             0,
-            " and the mapper finds the focal length",
+            " and the mapper finds the focal length from optical axes that are not parallel",
             [0, 1],
         ),
         (
             &[guess(1), guess(2)],
             [1, 1, 1, 2, 2, 2],
             0,
-            " and the mapper finds 2 focal lengths",
+            " and the mapper finds 2 focal lengths from optical axes that are not parallel",
             [0, 2],
         ),
         (
@@ -342,7 +342,7 @@ fn focal_lengths_that_are_guesses() {
             &[guess(1), guess(2)],
             [1, 2, 2, 2, 2, 2],
             1,
-            " and so is 1 guessed focal length, and the mapper finds the other focal length",
+            " and so is 1 guessed focal length, and the mapper finds the other focal length from optical axes that are not parallel",
             [1, 1],
         ),
         // The whole sphere has no focal length.

@@ -20,7 +20,7 @@ use viewcert_advice::priors::Priors;
 use viewcert_advice::{Request, Shapes, Weak};
 use viewcert_formats::{NamedGraph, NamedParts, with_rigs};
 use viewcert_report::Report;
-use viewcert_report::assumptions::{self, Scope};
+use viewcert_report::assumptions::{self, BaseLines, Scope};
 use viewcert_report::intrinsics::IntrinsicsLine;
 use viewcert_report::priors::PriorsLine;
 use viewcert_report::scene::Scene;
@@ -488,7 +488,8 @@ impl Decided {
             let mut scope = Scope::new(&input, &verdict, asked, &stop)?;
             if let Some(sensors) = sensors {
                 let found = Metric::with_sensors(&input.graph, &verdict, &sensors, seed, &stop)?;
-                let mut line = IntrinsicsLine::new(&input, &sensors, &found, list_components);
+                let line = IntrinsicsLine::new(&input, &sensors, &found, list_components);
+                let mut line = assumptions::out_of_planes(line, &input.graph, &verdict, &stop)?;
                 // Cameras to calibrate are suggested then, not images to match.
                 if let Some(most) = request.suggest.take() {
                     let priors =
@@ -499,12 +500,16 @@ impl Decided {
                 }
                 scope = scope.with_intrinsics(line);
             }
+            let verdict = &*scope.held(&input, &verdict);
+            if scope.base_lines().is_some_and(BaseLines::is_determined) {
+                request.ensure_alone("base lines that frames share")?;
+            }
             let outputs = Outputs::default();
             let mut shapes = Shapes::default();
-            let advice = request.advise(&outputs, &input, &verdict, seed, &mut shapes, stop)?;
+            let advice = request.advise(&outputs, &input, verdict, seed, &mut shapes, stop)?;
             let report = Report {
                 input: &input,
-                verdict: &verdict,
+                verdict,
                 rational,
                 list_components,
                 time,

@@ -10,7 +10,7 @@ use pyo3::types::PyBytes;
 use std::path::PathBuf;
 use std::sync::Arc;
 use viewcert::Model;
-use viewcert::here::{Centres, Here, HereError, Special, here};
+use viewcert::here::{Centres, Here, HereError, Special, here, open_focal_lengths};
 use viewcert::linalg::rational::Rational;
 use viewcert_advice::Advice;
 use viewcert_check::HereCertificate;
@@ -142,6 +142,12 @@ impl AtCameras {
                 "cameras: nothing else may be given beside them; decide the graph without known parts and displacements",
             ));
         }
+        if decided.get().asked().0.focal && cameras.centres.cameras().is_none() {
+            return Err(InputError::new_err(
+                "cameras: centres do not say where optical axes point, which decides whether pairs fix focal \
+                 lengths; give matrices, or decide with model='calibrated' if focal lengths are known",
+            ));
+        }
         let (centres, job) = (Arc::clone(&cameras.centres), Job::new(py)?);
         let (at, stop) = (Arc::clone(&centres), job.watch());
         let graph = Arc::clone(&input);
@@ -218,6 +224,8 @@ impl AtCameras {
         let job = Job::new(py)?;
         let (kind, stop) = (kind.to_owned(), job.watch());
         let answer = move || -> anyhow::Result<Vec<u8>> {
+            let open = open_focal_lengths(&input.graph, &centres).filter(|_| asked.focal);
+            let open = open.unwrap_or_default();
             let motions = match &kind[..] {
                 "html" => here.basis_of_motions(&centres, &stop)?.unwrap_or_default(),
                 _ => Vec::new(),
@@ -237,6 +245,7 @@ impl AtCameras {
                     here: &here,
                     centres: &centres,
                     motions: &motions,
+                    open: &open,
                 }),
             };
             written(&report, &kind)

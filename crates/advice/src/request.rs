@@ -65,10 +65,19 @@ impl Request {
         asked.filter_map(|(asked, option)| asked.then_some(option))
     }
 
-    /// The first option that has no answer where displacements are known, if there is one.
-    fn asked_without_displacements(&self) -> Option<&'static str> {
+    /// Refuses options that have no answer where so much is known besides pairs and tracks.
+    ///
+    /// # Errors
+    /// The first such option.
+    pub fn ensure_alone(&self, known: &str) -> Result<()> {
         let mut asked = self.asked_of_pairs();
-        asked.find(|option| !["--suggest", "--explain"].contains(option))
+        match asked.find(|option| !["--suggest", "--explain"].contains(option)) {
+            None => Ok(()),
+            Some(option) => bail!(
+                "{option} looks at pairs or tracks alone, and {known} would be left out of account; \
+                 leave out --given, and rigs by --no-rigs"
+            ),
+        }
     }
 
     /// The first option that has no answer where cameras have classes, if there is one.
@@ -103,13 +112,8 @@ impl Request {
                  leave out one of the two"
             );
         }
-        if !verdict.displacements.is_empty()
-            && let Some(option) = self.asked_without_displacements()
-        {
-            bail!(
-                "{option} looks at pairs or tracks alone, and known displacements would be left out of account; \
-                 leave out --given, and rigs by --no-rigs"
-            );
+        if !verdict.displacements.is_empty() {
+            self.ensure_alone("known displacements")?;
         }
         if verdict.displacements.vectors().is_some() {
             ensure!(

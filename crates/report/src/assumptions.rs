@@ -5,9 +5,10 @@
 use crate::condition;
 use crate::intrinsics::IntrinsicsLine;
 use serde::Serialize;
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 use viewcert::contract::Merge;
-use viewcert::decide::{Options, SharedBaseLines, Value, Verdict, plane_rank_with_parts};
+use viewcert::decide::{Options, SharedBaseLines, Turns, Value, Verdict, plane_rank_with_parts};
 use viewcert::geometry::model::Model;
 use viewcert::graph::{Graph, UnionFind};
 use viewcert::watch::{Stopped, Watch};
@@ -25,8 +26,18 @@ const VECTORS: &str = "the displacements are those that are given, vectors in th
 
 /// What `--model focal` rests on.
 const FOCAL: &str = "unknown focal lengths: decided as calibrated, because a pair fixes both focal \
-                     lengths if pixels are square, principal points are known, and its two optical \
-                     axes do not meet";
+                     lengths if pixels are square, principal points are known, its two optical axes do not \
+                     lie in one plane, and the planes through them and the base line are not at right angles";
+
+/// The same in the promise itself.
+const AXES: &str = "no pair has its optical axes in one plane";
+
+/// What frames have to do where base lines need it.
+const TURN: &str = "frames turn against each other";
+const TURN_MORE: &str = "frames turn about more than one axis";
+
+/// The condition where a plane is another case.
+const NO_PLANE: &str = "the centres do not all lie in one plane";
 
 /// The answer for centres that are generic in one plane. All of it is proved.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -43,8 +54,13 @@ impl Planar {
     ///
     /// # Errors
     /// If the work was stopped.
-    pub fn new(graph: &Graph, verdict: &Verdict, watch: &Watch) -> Result<Self, Stopped> {
-        let (model, known) = (verdict.model, &verdict.known_parts);
+    pub fn new(
+        graph: &Graph,
+        verdict: &Verdict,
+        model: Model,
+        watch: &Watch,
+    ) -> Result<Self, Stopped> {
+        let known = &verdict.known_parts;
         let plane = plane_rank_with_parts(graph, known, watch)?;
         let mut parts = UnionFind::new(graph.nodes());
         let edges = graph.edges().iter().copied();
@@ -97,7 +113,7 @@ const BASE_LINES: &str = "base lines: a sensor is at one place in its rig in all
 
 /// What is supposed where cameras have classes.
 const INTRINSICS: &str = "intrinsics: what is known of them is known exactly, and optical axes \
-                          are in general position (cameras that all look at one point are not)";
+                          are in general position (axes that are parallel, as of a nadir flight, or meet in one point are not)";
 
 /// What is supposed where several images are of one sensor with unknown intrinsics.
 const SENSORS: &str = "sensors: images of one sensor have the same intrinsics, and rotations are in general position (a \
@@ -118,8 +134,9 @@ pub struct BaseLines {
     parts: usize,
     /// Whether there are just so many.
     parts_proved: bool,
-    /// Whether it is solvable too if all frames turn about one axis.
+    /// Whether it is solvable too if all frames turn about one axis, and if they do not turn.
     about_one_axis: bool,
+    without_turns: bool,
     /// How many groups of images are not turned against each other by pairs and known poses, if more
     /// than one: where they are then rests on rotations that nothing gives.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -127,13 +144,12 @@ pub struct BaseLines {
 }
 
 impl BaseLines {
-    fn new(found: &SharedBaseLines, input: &NamedGraph) -> Self {
+    fn new(found: &SharedBaseLines, turns: Turns, input: &NamedGraph) -> Self {
         let groups = groups_turned(input);
-        let is_good = found.is_determined() && groups <= 1;
-        let condition = condition::of_photographs(input, Model::Calibrated);
         Self {
-            condition: condition.filter(|_| is_good),
-            about_one_axis: found.about_one_axis,
+            condition: None,
+            about_one_axis: found.about_one_axis && turns != Turns::General,
+            without_turns: turns == Turns::No,
             groups_not_turned: Some(groups).filter(|&groups| groups > 1),
             frames: found.frames,
             unknown: found.base_lines,
@@ -153,6 +169,12 @@ impl BaseLines {
     /// Whether all positions are unique, with a proof, rotations being known.
     pub fn is_determined(&self) -> bool {
         self.verdict == "solvable"
+    }
+
+    /// What holds so many cameras and points together.
+    pub(crate) fn hold(&self, nodes: usize) -> String {
+        let frames = counted(self.frames, "frame");
+        format!("base lines that {frames} share hold all {nodes} cameras and points together")
     }
 
     /// The answer in words.
@@ -192,12 +214,7 @@ impl BaseLines {
                 counted(self.parts, "part")
             ),
         };
-        let axis = if self.is_determined() && !self.about_one_axis {
-            "; if all frames turn about one axis, as a vehicle's do: not"
-        } else {
-            ""
-        };
-        format!("{unknown}, the same in {frames}: {answer}, rank {rank} of {rank_required}{axis}")
+        format!("{unknown}, the same in {frames}: {answer}, rank {rank} of {rank_required}")
     }
 }
 
@@ -238,9 +255,29 @@ pub fn base_lines(
         return Ok(None);
     };
     let (frames, seed) = (frames.rig_frames(), Options::default().seed);
-    let found = SharedBaseLines::new(&input.graph, verdict, &frames, seed, watch)?;
-    let found = found.map(|found| (BaseLines::new(&found, input), found));
-    Ok(found.filter(|(found, _)| !(is_good && found.is_determined())))
+    let Some(found) = SharedBaseLines::new(&input.graph, verdict, &frames, seed, watch)? else {
+        return Ok(None);
+    };
+    let turns = turns(input, watch)?;
+    let lines = BaseLines::new(&found, turns, input);
+    Ok(Some((lines, found)).filter(|(lines, _)| !(is_good && lines.is_determined())))
+}
+
+/// With how few turns of frames what frames determine is determined.
+fn turns(input: &NamedGraph, watch: &Watch) -> Result<Turns, Stopped> {
+    let Some(frames) = &input.frames else {
+        return Ok(Turns::No);
+    };
+    let seed = Options::default().seed;
+    Turns::needed(&input.graph, &frames.all_frames(), seed, watch)
+}
+
+/// How many images of frames see no track: their rig places them.
+fn placed_by_rig(input: &NamedGraph) -> usize {
+    let frames = input.frames.iter().map(|frames| frames.all_frames());
+    let images = frames.flat_map(|frames| frames.frames().to_vec().concat());
+    let unseen = images.filter(|&(image, _)| input.graph.edges_from(image).is_empty());
+    unseen.count()
 }
 
 /// Whether a verdict shows already that nothing is lost in a plane: one body, by the merge rules
@@ -251,6 +288,28 @@ fn is_rigid_by_triangles(verdict: &Verdict) -> bool {
     verdict.pieces.is_empty()
         && verdict.contraction.by_rank.is_empty()
         && merges.all(|merge| matches!(merge, Merge::Shared { .. } | Merge::Triangle { .. }))
+}
+
+/// An answer on intrinsics, under the condition that centres are not all in one plane where calibrated cameras
+/// are lost there, as far as that is looked at unasked.
+///
+/// # Errors
+/// If the work was stopped.
+pub fn out_of_planes(
+    line: IntrinsicsLine,
+    graph: &Graph,
+    verdict: &Verdict,
+    watch: &Watch,
+) -> Result<IntrinsicsLine, Stopped> {
+    let is_asked = line.is_metric() && graph.edges().len() <= UNASKED;
+    if !is_asked || is_rigid_by_triangles(verdict) {
+        return Ok(line);
+    }
+    let planar = Planar::new(graph, verdict, Model::Calibrated, watch)?;
+    Ok(match planar.is_determined() {
+        true => line,
+        false => line.under(NO_PLANE),
+    })
 }
 
 /// Up to this many pairs centres in one plane are looked at unasked: the time of a pebble game grows
@@ -270,7 +329,11 @@ pub struct Asked {
 #[derive(Clone, Debug, Default)]
 pub struct Scope {
     conditions: Vec<String>,
+    /// The conditions that decide, for the promise itself.
+    provided: Vec<String>,
     planar: Option<Planar>,
+    needs_turns: bool,
+    focal: bool,
     base_lines: Option<(BaseLines, SharedBaseLines)>,
     intrinsics: Option<IntrinsicsLine>,
 }
@@ -296,12 +359,13 @@ impl Scope {
             && input.graph.edges().len() <= UNASKED
             && !is_rigid_by_triangles(verdict);
         let planar = (asked.planar || may_hide)
-            .then(|| Planar::new(&input.graph, verdict, watch))
+            .then(|| Planar::new(&input.graph, verdict, verdict.model, watch))
             .transpose()?;
         let hidden = is_good && planar.is_some_and(|planar| !planar.is_determined());
-        let mut conditions = Vec::new();
+        let (mut conditions, mut provided) = (Vec::new(), Vec::new());
         if asked.focal {
             conditions.push(FOCAL.to_owned());
+            provided.push(AXES.to_owned());
         }
         let known = verdict.known_parts.len();
         if known > 0 {
@@ -315,20 +379,77 @@ impl Scope {
             let condition = if is_given { VECTORS } else { DISPLACEMENTS };
             conditions.push(condition.to_owned());
         }
-        let base_lines = base_lines(input, verdict, watch)?;
+        let mut base_lines = base_lines(input, verdict, watch)?;
+        let by_frames = base_lines.as_ref().map(|(found, _)| found);
+        let by_frames = by_frames.filter(|found| found.is_determined());
+        let turns = match by_frames {
+            Some(found) if found.without_turns => Turns::No,
+            Some(found) if found.about_one_axis => Turns::AboutOneAxis,
+            Some(_) => Turns::General,
+            None if is_good && !verdict.displacements.is_empty() => turns(input, watch)?,
+            None => Turns::No,
+        };
+        match turns {
+            Turns::No => {}
+            Turns::AboutOneAxis => provided.push(TURN.to_owned()),
+            Turns::General => provided.push(TURN_MORE.to_owned()),
+        }
+        let placed = placed_by_rig(input);
+        if placed > 0 && (is_good || by_frames.is_some()) {
+            let images = counted(placed, "image");
+            let are = if placed == 1 { "is" } else { "are" };
+            provided.push(format!("{images} without a track {are} where the rig says"));
+        }
         if base_lines.is_some() {
             conditions.push(BASE_LINES.to_owned());
         }
         if hidden {
             let condition = "holds for centres in general position; if all lie in one plane: not";
             conditions.push(condition.to_owned());
+            provided.push(NO_PLANE.to_owned());
+        }
+        let photographs = condition::of_photographs(input, Model::Calibrated);
+        let condition = condition::with(photographs, &provided);
+        if let Some((found, _)) = base_lines
+            .as_mut()
+            .filter(|(found, _)| found.is_determined())
+        {
+            found.condition = condition;
         }
         Ok(Self {
             conditions,
+            provided,
+            needs_turns: turns != Turns::No,
+            focal: asked.focal,
             planar: planar.filter(|planar| asked.planar || !planar.is_determined()),
             base_lines,
             intrinsics: None,
         })
+    }
+
+    /// The verdict with what frames hold together, which is one component then.
+    pub fn held<'v>(&self, input: &NamedGraph, verdict: &'v Verdict) -> Cow<'v, Verdict> {
+        let found = self.base_lines.as_ref();
+        let found = found.filter(|(lines, _)| lines.is_determined());
+        match found.and_then(|(_, found)| found.held(&input.graph, verdict)) {
+            Some(held) => Cow::Owned(held),
+            None => Cow::Borrowed(verdict),
+        }
+    }
+
+    /// The condition of a promise, with those that decide here.
+    pub(crate) fn promise(&self, condition: Option<String>) -> Option<String> {
+        condition::with(condition, &self.provided)
+    }
+
+    /// Whether focal lengths are unknown.
+    pub(crate) fn asks_focal(&self) -> bool {
+        self.focal
+    }
+
+    /// Whether a promise holds only if frames turn.
+    pub(crate) fn needs_turns(&self) -> bool {
+        self.needs_turns
     }
 
     /// With what classes of cameras determine.

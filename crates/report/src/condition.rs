@@ -33,11 +33,28 @@ pub(crate) fn if_right(input: &NamedGraph) -> String {
     if is_model { tracks } else { RIGHT }.to_owned()
 }
 
+/// What has to hold of optical axes for intrinsics to be found.
+pub(crate) fn axes(are_known: bool, facts: &DatabaseFacts) -> &'static str {
+    match (are_known, facts.axes_parallel) {
+        (true, _) => "",
+        (_, true) => " and optical axes are not parallel, as they are here",
+        _ => " and optical axes are neither parallel nor meet in one point",
+    }
+}
+
 /// What has to hold of focal lengths that are guesses.
 fn focal(facts: &DatabaseFacts) -> String {
-    let shared = |more: &str| match facts.focal_shared {
-        1 => format!(" and the mapper finds the {more}focal length"),
-        count => format!(" and the mapper finds {count} {more}focal lengths"),
+    let shared = |more: &str| {
+        let found = match facts.focal_shared {
+            1 => format!("the {more}focal length"),
+            count => format!("{count} {more}focal lengths"),
+        };
+        match facts.axes_parallel {
+            false => {
+                format!(" and the mapper finds {found} from optical axes that are not parallel")
+            }
+            true => format!(" and so is the guess of {found}, as all optical axes are parallel"),
+        }
     };
     match (facts.focal_guessed, facts.focal_shared) {
         (0, 0) => String::new(),
@@ -55,4 +72,13 @@ fn focal(facts: &DatabaseFacts) -> String {
             )
         }
     }
+}
+
+/// A condition, and more of them.
+pub(crate) fn with(condition: Option<String>, more: &[String]) -> Option<String> {
+    let all = condition.into_iter().chain(more.iter().cloned());
+    let all: Vec<String> = all.collect();
+    let first = all.first()?;
+    let begin = if first.starts_with("if ") { "" } else { "if " };
+    Some(format!("{begin}{}", all.join(" and ")))
 }

@@ -28,6 +28,8 @@ pub struct HereReport<'a> {
     pub centres: &'a Centres,
     /// A basis of what moves, if that is to be drawn.
     pub motions: &'a [Motion],
+    /// Where focal lengths are unknown, the nodes whose one no pair fixes.
+    pub open: &'a [u32],
 }
 
 /// What the rank means (Theorem 16.1), given that of generic cameras, if it is known.
@@ -49,6 +51,7 @@ fn means(here: &Here, graph: &Graph, generic: Option<usize>) -> &'static str {
 }
 
 /// Whether the cameras are determined, and what that means.
+#[cfg(feature = "audit")]
 pub(super) fn answer(here: &Here, graph: &Graph, generic: Option<usize>) -> String {
     let is = if here.is_determined() {
         "determined"
@@ -59,6 +62,19 @@ pub(super) fn answer(here: &Here, graph: &Graph, generic: Option<usize>) -> Stri
 }
 
 impl HereReport<'_> {
+    /// Whether the cameras are determined, with their focal lengths.
+    pub fn is_determined(&self) -> bool {
+        self.here.is_determined() && self.open.is_empty()
+    }
+
+    /// What the rank means.
+    fn means(&self) -> &'static str {
+        if self.is_determined() || !self.here.is_determined() {
+            return means(self.here, &self.input.graph, Some(self.verdict.rank));
+        }
+        "these cameras are the only ones if focal lengths are known, and no pair fixes some of them"
+    }
+
     /// Whether the cameras have a smaller rank than generic ones.
     pub fn is_degenerate(&self) -> bool {
         self.here.rank.value < self.verdict.rank
@@ -84,10 +100,23 @@ impl HereReport<'_> {
     /// # Errors
     /// Those of the writer.
     pub fn write_text(&self, out: &mut impl Write, list_components: bool) -> io::Result<()> {
-        let (here, generic) = (self.here, Some(self.verdict.rank));
+        let here = self.here;
         let strength = text::strength(here.rank.strength);
-        let answer = answer(here, &self.input.graph, generic);
-        writeln!(out, "  at cameras  {answer} ({strength})")?;
+        let is = if self.is_determined() { "" } else { "not " };
+        writeln!(
+            out,
+            "  at cameras  {is}determined: {} ({strength})",
+            self.means()
+        )?;
+        if !self.open.is_empty() {
+            let names = self.names(self.open, SHOWN);
+            writeln!(
+                out,
+                "  focal       no pair fixes the focal length of {names}: with each neighbour the optical axes lie \
+                 in one plane, or in planes through the base line at right angles; give focal lengths \
+                 (--model calibrated), or turn cameras"
+            )?;
+        }
         if self.is_degenerate() {
             let rank = self.verdict.rank;
             writeln!(
@@ -167,8 +196,9 @@ impl HereReport<'_> {
             labels: labels(special.nodes()),
         });
         HereLine {
-            determined: here.is_determined(),
-            means: means(here, &self.input.graph, Some(self.verdict.rank)),
+            determined: self.is_determined(),
+            means: self.means(),
+            focal_open: labels(self.open),
             degenerate: self.is_degenerate(),
             strength: here.rank.strength.name(),
             error_log2: here.rank.strength.error_log2(),
@@ -200,6 +230,9 @@ fn place(special: &Special, model: Model) -> &'static str {
 pub(super) struct HereLine {
     determined: bool,
     means: &'static str,
+    /// The cameras whose unknown focal length no pair fixes.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    focal_open: Vec<String>,
     /// Whether the rank is smaller than that of generic cameras.
     degenerate: bool,
     strength: &'static str,

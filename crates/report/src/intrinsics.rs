@@ -108,7 +108,10 @@ impl IntrinsicsLine {
             shared,
             classes_sha256: hex(&sensors.sha256()),
             verdict: found.verdict(),
-            condition: input.database.is_some().then(|| condition::if_right(input)),
+            condition: input.database.as_deref().map(|facts| {
+                let is_known = classes.iter().all(|&class| class == Class::Known);
+                condition::if_right(input) + condition::axes(is_known, facts)
+            }),
             proved: found.is_proved(),
             rank: found.rank,
             rank_at_most: found.at_most,
@@ -125,6 +128,12 @@ impl IntrinsicsLine {
                 .collect(),
             priors: None,
         }
+    }
+
+    /// Under one condition more.
+    pub(crate) fn under(self, more: &str) -> Self {
+        let condition = condition::with(self.condition, &[more.to_owned()]);
+        Self { condition, ..self }
     }
 
     /// With what one prior more would do.

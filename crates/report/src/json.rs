@@ -6,7 +6,7 @@ use super::text::{self, several};
 use super::tracks;
 use super::tracks::TrackLine;
 use super::{Report, WrittenProof};
-use crate::assumptions::{BaseLines, Planar};
+use crate::assumptions::{BaseLines, Planar, Scope};
 use crate::here::HereLine;
 use crate::intrinsics::IntrinsicsLine;
 use serde::Serialize;
@@ -177,14 +177,19 @@ pub(super) struct AnswerLine {
 }
 
 impl AnswerLine {
-    pub(super) fn new(input: &NamedGraph, verdict: &Verdict, are_listed: bool) -> Self {
+    pub(super) fn new(
+        input: &NamedGraph,
+        verdict: &Verdict,
+        scope: &Scope,
+        are_listed: bool,
+    ) -> Self {
         let strength = verdict.value_claim().strength;
         Self {
             verdict: verdict.value.name(),
-            condition: text::condition(input, verdict),
+            condition: text::condition(input, verdict, scope),
             strength: strength.name(),
             error_log2: strength.error_log2(),
-            because: text::reason(input, verdict),
+            because: text::because(input, verdict, scope),
             solutions: verdict.solutions.as_ref().map(SolutionsLine::from),
             rank: verdict.rank,
             rank_required: verdict.required,
@@ -198,7 +203,8 @@ impl AnswerLine {
 
 impl From<&Report<'_>> for AnswerLine {
     fn from(report: &Report) -> Self {
-        Self::new(report.input, report.verdict, report.list_components)
+        let listed = report.list_components;
+        Self::new(report.input, report.verdict, report.scope, listed)
     }
 }
 

@@ -3,6 +3,7 @@
 use super::json::{AnswerLine, GraphLine, parts, write_line};
 use super::read::ReadLine;
 use super::{size_with_parts, text};
+use crate::assumptions::Scope;
 use serde::Serialize;
 use std::collections::{BTreeMap, HashMap};
 use std::io::{self, Write};
@@ -161,7 +162,7 @@ impl ModelLine {
     fn new(input: &NamedGraph, verdict: &Verdict) -> Self {
         Self {
             model: verdict.model.name(),
-            answer: AnswerLine::new(input, verdict, false),
+            answer: AnswerLine::new(input, verdict, &Scope::default(), false),
         }
     }
 }

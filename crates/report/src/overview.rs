@@ -12,7 +12,7 @@ use super::{
     Report, condition, counted, database, mappers, narrow, part_names, size_of, text, tracks,
 };
 use crate::advice::{joints as write_joints, photograph, suggestions as write_suggestions};
-use crate::assumptions::BaseLines;
+use crate::assumptions::{BaseLines, Scope};
 use crate::intrinsics::IntrinsicsLine;
 use crate::mappers::WithoutBaseLine;
 use serde::Serialize;
@@ -151,12 +151,7 @@ pub struct Parts {
 impl Parts {
     fn new(report: &Report, wanted: &Wanted) -> Self {
         let components = &report.verdict.components;
-        let by_frames = report
-            .scope
-            .base_lines()
-            .filter(|found| found.is_determined());
         let all: Vec<Vec<u32>> = match report.input.cameras {
-            Some(cameras) if by_frames.is_some() => vec![(0..cameras).collect()],
             None => components.iter().map(|part| part.nodes()).collect(),
             // A frame that no point holds to anything is no part.
             Some(cameras) => components
@@ -238,10 +233,16 @@ impl Overview<'_> {
     }
 
     /// Whether the tracks, or without any the calibrated pairs, determine all images: none may be
-    /// without a pair, or with a focal length that is a guess and that mappers do not find, and pairs with a
-    /// base line have to hold them together.
+    /// without a pair, or with a focal length that is a guess and that mappers do not find, pairs with a
+    /// base line have to hold them together, and nothing rests on turns of frames.
     pub fn determined(&self) -> bool {
-        self.is_promised() && self.guessed() == 0 && self.no_model().is_none()
+        let is_seen_to_fail = self.facts().is_some_and(|facts| facts.axes_parallel);
+        let scope = self.decisive().map(|report| report.scope);
+        self.is_promised()
+            && self.guessed() == 0
+            && self.no_model().is_none()
+            && !is_seen_to_fail
+            && !scope.is_some_and(Scope::needs_turns)
     }
 
     /// The same, whatever focal lengths are, and whether mappers make anything of it.
@@ -284,14 +285,30 @@ impl Overview<'_> {
 
     /// What everything that is promised rests on.
     pub(crate) fn condition(&self) -> String {
-        self.decisive()
-            .map_or_else(String::new, |report| condition::of(report.input))
+        self.decisive().map_or_else(String::new, condition_of)
     }
 
     /// The same of what pairs alone determine.
     fn condition_of_pairs(&self) -> String {
         let pairs = self.pairs.as_ref();
-        pairs.map_or_else(String::new, |[pairs, _]| condition::of(pairs.input))
+        pairs.map_or_else(String::new, |[_, calibrated]| condition_of(calibrated))
+    }
+
+    /// What the database's own data, or its rigs, make doubtful.
+    fn doubts(&self) -> impl Iterator<Item = &'static str> {
+        let axes = self.facts().is_some_and(|facts| facts.axes_parallel);
+        let axes = axes.then_some(
+            "the optical axes of all images are parallel, as of a nadir flight (measured, by the relative \
+             rotations): focal length and heights scale together, and mappers keep their guess; give the \
+             focal length (--ImageReader.camera_params), or tilt some images by a degree or more",
+        );
+        let scope = self.decisive().map(|report| report.scope);
+        let turns = scope.filter(|scope| scope.needs_turns()).map(|_| {
+            "parts hang together by base lines of rigs alone, which tell nothing if frames hardly turn, as of a \
+             car or of a drone on one line: both mappers then misplace these parts silently; see in a model \
+             whether the rotations of frames differ by several degrees, about several axes"
+        });
+        axes.into_iter().chain(turns)
     }
 
     /// Why mappers make nothing of a database, where that is known beforehand.
@@ -491,6 +508,9 @@ impl Overview<'_> {
                  images if it was one (--ImageReader.single_camera 1)"
             );
             wrapped(out, "warning", &words)?;
+        }
+        for doubt in self.doubts() {
+            wrapped(out, "warning", doubt)?;
         }
         if let Some([projective, calibrated]) = &self.pairs {
             match &projective.input.database {
@@ -760,6 +780,12 @@ struct PositionLine<'a> {
     positions: AnswerLine,
     #[serde(skip_serializing_if = "Option::is_none")]
     base_lines: Option<&'a BaseLines>,
+}
+
+/// What the promises of a report rest on.
+fn condition_of(report: &Report) -> String {
+    let condition = report.scope.promise(Some(condition::of(report.input)));
+    condition.unwrap_or_default()
 }
 
 /// Writes words in lines of limited width.

@@ -40,16 +40,17 @@ pub(crate) fn images(input: &NamedGraph, cameras: &[u32]) -> usize {
 
 /// The parts, whose images are increasing.
 pub(crate) fn parts(input: &NamedGraph, parts: &[Vec<u32>]) -> Vec<PartLine> {
-    let name = |image: u32| input.labels.label(image).into_owned();
-    let ends = parts
-        .iter()
-        .filter_map(|images| Some((images, *images.first()?, *images.last()?)));
-    ends.map(|(images, first, last)| PartLine {
-        images: self::images(input, images),
-        first: name(first),
-        last: name(last),
-    })
-    .collect()
+    let part = |images: &Vec<u32>| {
+        let mut names = names(input, images);
+        // Numbers as such.
+        names.sort_by_cached_key(|name| (name.parse::<u64>().ok(), name.clone()));
+        Some(PartLine {
+            images: names.len(),
+            first: names.first()?.clone(),
+            last: names.pop()?,
+        })
+    };
+    parts.iter().filter_map(part).collect()
 }
 
 /// Writes the parts, and the images in none; `note` says more of an image.

@@ -1,7 +1,9 @@
 //! A few lines a graph, for people.
 
 use super::{Report, condition, counted, database, size_with_parts, tracks};
+use crate::assumptions::Scope;
 use std::io::{self, Write};
+use viewcert::Model;
 use viewcert::contract::Merge;
 use viewcert::decide::Strength;
 use viewcert::decide::evidence::{Evidence, Witness};
@@ -41,7 +43,11 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
         )?;
     }
     writeln!(out, "  verdict     {}", answer(report))?;
-    writeln!(out, "  because     {}", reason(input, verdict))?;
+    writeln!(
+        out,
+        "  because     {}",
+        because(input, verdict, report.scope)
+    )?;
     let of_components = verdict.components.iter().map(|one| &one.solutions);
     let mut counts = of_components.chain([&verdict.solutions]).flatten();
     if counts.any(|count| count.full_may_tell_more) {
@@ -119,8 +125,8 @@ pub(super) fn answer(report: &Report) -> String {
             None => "finitely many sets of cameras".into(),
         },
     };
-    let condition =
-        condition(report.input, verdict).map_or_else(String::new, |words| format!(" {words}"));
+    let condition = condition(report.input, verdict, report.scope);
+    let condition = condition.map_or_else(String::new, |words| format!(" {words}"));
     format!(
         "{}: {means}{condition} ({})",
         verdict.value.name(),
@@ -128,10 +134,26 @@ pub(super) fn answer(report: &Report) -> String {
     )
 }
 
-/// What a good answer about photographs rests on.
-pub(super) fn condition(input: &NamedGraph, verdict: &Verdict) -> Option<String> {
+/// What a good answer rests on.
+pub(super) fn condition(input: &NamedGraph, verdict: &Verdict, scope: &Scope) -> Option<String> {
     let is_good = verdict.value != Value::NotFiniteSolvable;
-    condition::of_photographs(input, verdict.model).filter(|_| is_good)
+    // Pairs fix focal lengths then, and no mapper finds them.
+    let model = if scope.asks_focal() {
+        Model::Projective
+    } else {
+        verdict.model
+    };
+    let condition = scope.promise(condition::of_photographs(input, model));
+    condition.filter(|_| is_good)
+}
+
+/// What the answer rests on, in a line.
+pub(super) fn because(input: &NamedGraph, verdict: &Verdict, scope: &Scope) -> String {
+    let by_frames = scope.base_lines();
+    match by_frames.filter(|found| found.is_determined()) {
+        Some(found) => found.hold(input.graph.nodes()),
+        None => reason(input, verdict),
+    }
 }
 
 /// The strength of a claim in words.
@@ -142,8 +164,7 @@ pub(super) fn strength(strength: Strength) -> String {
     }
 }
 
-/// What the verdict rests on, in a line.
-pub(super) fn reason(input: &NamedGraph, verdict: &Verdict) -> String {
+fn reason(input: &NamedGraph, verdict: &Verdict) -> String {
     let nodes = input.graph.nodes();
     let (members, single) = match input.cameras {
         None => ("cameras", "single cameras"),

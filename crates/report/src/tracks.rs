@@ -2,6 +2,7 @@
 
 use super::{Report, counted};
 use serde::Serialize;
+use std::collections::BTreeSet;
 use std::io::{self, Write};
 use viewcert::decide::Component;
 use viewcert_formats::TrackFacts;
@@ -110,11 +111,13 @@ pub fn write_components(
     }
     let total = parts.len() + single.len();
     let colon = if text.is_empty() { "" } else { ": " };
-    let facts = report.input.tracks.as_ref();
-    let alone = facts.map_or(0, |facts| facts.cameras_without_point);
-    let in_none = match alone {
+    // Those that a rig places are in one.
+    let inside: BTreeSet<u32> = parts.iter().flat_map(|(nodes, _)| nodes).copied().collect();
+    let graph = &report.input.graph;
+    let alone = (0..cameras).filter(|v| graph.edges_from(*v).is_empty() && !inside.contains(v));
+    let in_none = match alone.count() {
         0 => String::new(),
-        _ => format!("; in none: {} without a point", counted(alone, "camera")),
+        count => format!("; in none: {} without a point", counted(count, "camera")),
     };
     writeln!(
         out,

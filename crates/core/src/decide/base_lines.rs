@@ -9,10 +9,14 @@
 mod drawn;
 mod members;
 
+use crate::contract::Contraction;
 use crate::contract::piece::Members as Block;
+use crate::decide::claim::Strength;
 use crate::decide::evidence::ModularDraw;
-use crate::decide::verdict::{Value, Verdict};
+use crate::decide::solution_count::SolutionCount;
+use crate::decide::verdict::{Component, Value, Verdict};
 use crate::geometry::draw::DrawKey;
+use crate::geometry::model::Model;
 use crate::graph::Graph;
 use crate::linalg::textbook::Pivots;
 use crate::watch::{Stopped, Watch};
@@ -123,6 +127,51 @@ impl RigFrames {
     }
 }
 
+/// How frames turn against each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Turns {
+    /// Not at all: a car on a straight road, a drone on one line.
+    No,
+    /// About one axis: a vehicle.
+    AboutOneAxis,
+    /// In general.
+    General,
+}
+
+impl Turns {
+    /// With how few turns a graph is determined that frames in general determine, as far as drawn
+    /// positions show; known base lines and unknown ones count.
+    ///
+    /// # Errors
+    /// If the work was stopped.
+    pub fn needed(
+        graph: &Graph,
+        frames: &RigFrames,
+        seed: u64,
+        watch: &Watch,
+    ) -> Result<Self, Stopped> {
+        let layout = Layout::new(frames);
+        // Displacements that are known merge bodies as if frames turned in general.
+        let contraction = Contraction::new(graph, Model::Calibrated);
+        let members = Members::new(graph, &contraction, &layout);
+        let key = DrawKey {
+            graph_sha256: crate::graph::sha256(graph),
+            core_sha256: Some(frames.sha256()),
+            seed,
+            draw: 2 * DRAWS,
+        };
+        for turns in [Self::No, Self::AboutOneAxis] {
+            if let Some(drawn) = Drawn::new(&members, &layout, &key, turns) {
+                let free = drawn.motion(&vec![false; layout.unknown], watch)?;
+                if free.dimension + members.outside == members.trivial() {
+                    return Ok(turns);
+                }
+            }
+        }
+        Ok(Self::General)
+    }
+}
+
 /// What a graph determines if base lines that are not known are the same in all frames.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SharedBaseLines {
@@ -157,7 +206,7 @@ pub(crate) struct BaseLinesEvidence {
     /// Sensors whose places are held, and the blocks with the bound they give, if it is below what
     /// is required.
     pub(crate) upper: Option<(Vec<u32>, Vec<Block>)>,
-    /// How many nodes nothing holds; no block has them.
+    /// How many nodes, frames and places nothing holds; no block has them.
     pub(crate) alone: usize,
 }
 
@@ -179,6 +228,20 @@ impl SharedBaseLines {
         let blocks = self.evidence.upper.as_ref();
         let blocks = blocks.map_or(1, |(_, blocks)| blocks.len());
         self.rank == self.at_most && blocks + self.evidence.alone == self.parts
+    }
+
+    /// A verdict on the graph, if frames determine all of it: with them it is one component.
+    pub fn held(&self, graph: &Graph, verdict: &Verdict) -> Option<Verdict> {
+        self.is_determined().then(|| Verdict {
+            value: Value::Solvable,
+            value_strength: Strength::Proof,
+            solutions: Some(SolutionCount::one()),
+            rank: self.rank,
+            required: self.required,
+            components: vec![Component::whole(graph, &verdict.contraction)],
+            pieces: Vec::new(),
+            ..verdict.clone()
+        })
     }
 
     /// The answer, as certificates have it.
@@ -223,7 +286,7 @@ impl SharedBaseLines {
         };
         let mut found: Option<Self> = None;
         for draw in 0..DRAWS {
-            let Some(drawn) = Drawn::new(&members, &layout, &key(draw), false) else {
+            let Some(drawn) = Drawn::new(&members, &layout, &key(draw), Turns::General) else {
                 continue;
             };
             let required = members.required(&layout);
@@ -244,6 +307,7 @@ impl SharedBaseLines {
                     upper = Some((layout.sensors(&held), members.blocks(&motion.classes)));
                 }
             }
+            let alone = members.alone + members.unseen;
             let now = Self {
                 frames: frames.len(),
                 base_lines: layout.unknown,
@@ -251,14 +315,14 @@ impl SharedBaseLines {
                 at_most,
                 required,
                 about_one_axis: false,
-                parts: free.classes.iter().max().map_or(0, |last| last + 1) + members.alone,
+                parts: free.classes.iter().max().map_or(0, |last| last + 1) + alone,
                 graph_sha256: verdict.sha256,
                 evidence: BaseLinesEvidence {
                     frames: frames.clone(),
                     lower: (drawn.name(), free.pivots),
                     one_axis: None,
                     upper: None,
-                    alone: members.alone,
+                    alone,
                 },
             };
             // A larger rank is nearer to the generic one, and its motions are those that there are.
@@ -274,7 +338,7 @@ impl SharedBaseLines {
             }
         }
         if let Some(found) = found.as_mut().filter(|found| found.is_determined())
-            && let Some(drawn) = Drawn::new(&members, &layout, &key(2 * DRAWS), true)
+            && let Some(drawn) = Drawn::new(&members, &layout, &key(2 * DRAWS), Turns::AboutOneAxis)
         {
             let free = drawn.motion(&vec![false; layout.unknown], watch)?;
             found.about_one_axis = free.dimension + members.outside == members.trivial();

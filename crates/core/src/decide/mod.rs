@@ -48,7 +48,7 @@ mod walk;
 mod whole_matrix;
 
 pub(crate) use base_lines::BaseLinesEvidence;
-pub use base_lines::{RigFrames, SharedBaseLines};
+pub use base_lines::{RigFrames, SharedBaseLines, Turns};
 pub use claim::{Claim, Strength, UnknownStrength};
 #[cfg(test)]
 pub(crate) use counting::GAMMA;

@@ -42,10 +42,26 @@ pub struct Component {
     pub solutions: Option<SolutionCount>,
     nodes: usize,
     edges: usize,
+    /// Nodes that no member has and frames hold.
+    held: Vec<u32>,
     contraction: Arc<Contraction>,
 }
 
 impl Component {
+    /// The component that is a whole graph, as frames hold it together.
+    pub(crate) fn whole(graph: &Graph, contraction: &Arc<Contraction>) -> Self {
+        let members = Members {
+            bodies: contraction.finals.clone(),
+            edges: contraction.loose.clone(),
+        };
+        Self {
+            nodes: graph.nodes(),
+            edges: graph.edges().len(),
+            held: (0..graph.nodes() as u32).collect(),
+            ..Self::new(members, 0, contraction)
+        }
+    }
+
     /// The component that consists of the given members, which have so many nodes together.
     pub(crate) fn new(members: Members, nodes: usize, contraction: &Arc<Contraction>) -> Self {
         let of_bodies = members.bodies.iter();
@@ -55,6 +71,7 @@ impl Component {
             edges: members.edges.len() + of_bodies.sum::<usize>(),
             members,
             solutions: None,
+            held: Vec::new(),
             contraction: Arc::clone(contraction),
         }
     }
@@ -76,6 +93,7 @@ impl Component {
             .flat_map(|&body| &self.contraction.bodies[body as usize].nodes)
             .copied()
             .chain(self.members.edges.iter().flat_map(|&(i, j)| [i, j]))
+            .chain(self.held.iter().copied())
             .collect();
         nodes.sort_unstable();
         nodes.dedup();

@@ -24,7 +24,7 @@ pub struct Centres {
     pub(super) places: Vec<[Integer; 4]>,
     /// The cameras as primitive integer matrices, row by row, if cameras were given.
     cameras: Option<Vec<[Integer; 12]>>,
-    residues: Vec<[u64; 4]>,
+    pub(super) residues: Vec<[u64; 4]>,
     /// The t of the chart.
     pub(super) chart: u64,
     /// l_t of each centre.

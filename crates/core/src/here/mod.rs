@@ -8,11 +8,13 @@
 mod centres;
 
 mod core;
+mod focal;
 mod motion;
 mod rank;
 mod special;
 
 pub use centres::{CentreError, Centres};
+pub use focal::open_focal_lengths;
 pub use motion::Motion;
 pub use special::Special;
 

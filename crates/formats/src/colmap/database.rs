@@ -7,7 +7,7 @@ use super::pairs::{Tables, of_cameras};
 use super::{
     DatabaseError, DatabaseFacts, Estimate, FeatureTracks, Groups, Pipeline, Views, estimate,
 };
-use super::{base_lines, positions, rigs, tracks};
+use super::{axes, base_lines, positions, rigs, tracks};
 use crate::error::{Fault, Place, Problem};
 use crate::{Matching, NamedGraph, ReadAs, ReadError, ReadOptions, TrackOptions};
 use viewcert::graph::{Graph, Labels};
@@ -45,12 +45,12 @@ impl Database {
             let mut geometry = Geometry::new(&opened, &tables);
             let without =
                 base_lines::note(&tables.pairs, tables.names.len(), |pair| geometry.of(pair))?;
+            let positioned = positions.iter().flatten().count();
+            let mut facts = tables.facts(&opened.connection, &pairs, positioned)?;
+            facts.axes_parallel = facts.axes_parallel
+                && axes::are_parallel(&tables.pairs, &facts, |pair| geometry.of(pair))?;
             Ok(Self {
-                facts: tables.facts(
-                    &opened.connection,
-                    &pairs,
-                    positions.iter().flatten().count(),
-                )?,
+                facts,
                 matching: Matching {
                     positions,
                     ..matching

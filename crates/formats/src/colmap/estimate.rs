@@ -25,6 +25,8 @@ pub struct Estimate {
     /// The direction of the second image as the first sees it, and of the first as the second does;
     /// of length 1.
     pub towards: Option<[[f64; 3]; 2]>,
+    /// The rotation that takes directions of the first image to those of the second, by rows.
+    pub rotation: Option<[[f64; 3]; 3]>,
 }
 
 impl Estimate {
@@ -67,6 +69,7 @@ pub fn estimate(views: &TwoViews) -> Estimate {
         angle: None,
         forward: None,
         towards: None,
+        rotation: None,
     };
     let stored = views.pose.map(|(q, t)| Pose {
         rotation: rotation(q),
@@ -84,6 +87,7 @@ pub fn estimate(views: &TwoViews) -> Estimate {
         towards: forward.is_finite().then_some([first, second]),
         forward: forward.is_finite().then_some(forward),
         angle: median_angle(&pose, &views.matches),
+        rotation: Some(pose.rotation),
         ..unknown
     }
 }

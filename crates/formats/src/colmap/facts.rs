@@ -38,6 +38,10 @@ pub struct DatabaseFacts {
     pub focal_guessed: usize,
     /// How many cameras that three images or more with a pair have and whose focal length is a guess.
     pub focal_shared: usize,
+    /// Whether, by the relative rotations of pairs, the optical axes of all images with a pair are parallel;
+    /// asked only where a camera has a focal length that is a guess.
+    #[serde(default)]
+    pub axes_parallel: bool,
     /// How many images with a pair have no keypoints.
     pub images_without_keypoints: usize,
     /// The sizes of the connected parts of the viewing graph in images, falling; images without a

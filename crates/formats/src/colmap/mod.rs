@@ -9,6 +9,8 @@
 #[cfg(not(feature = "databases"))]
 mod absent;
 #[cfg(feature = "databases")]
+mod axes;
+#[cfg(feature = "databases")]
 mod base_lines;
 #[cfg(feature = "databases")]
 mod database;

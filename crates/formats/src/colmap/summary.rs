@@ -23,7 +23,8 @@ impl Tables {
         positions: usize,
     ) -> Result<DatabaseFacts, DatabaseError> {
         let paired: BTreeSet<u32> = graph.edges().iter().flat_map(|&(a, b)| [a, b]).collect();
-        let [focal_guessed, focal_shared] = guesses(connection, &self.nodes, &paired)?;
+        let number_paired = paired.len();
+        let [focal_guessed, focal_shared, all] = guesses(connection, &self.nodes, &paired)?;
         let keypoints = match keypoints::counts(connection, &self.names, &self.nodes) {
             // Who asks for tracks hears of it.
             Err(DatabaseError::Keypoints { .. }) => None,
@@ -62,6 +63,8 @@ impl Tables {
             positions,
             focal_guessed,
             focal_shared,
+            // To be seen where no focal length is known.
+            axes_parallel: all > 0 && all == number_paired,
             images_without_keypoints,
             connected,
         })
@@ -133,11 +136,11 @@ impl Tables {
         }
         if facts.images_without_pair > 0 {
             let (these, they) = match facts.images_without_pair {
-                1 => ("is in no pair that is used", "it is a camera"),
-                _ => ("are in no pair that is used", "they are cameras"),
+                1 => ("is in no pair that is used", "it"),
+                _ => ("are in no pair that is used", "them"),
             };
             let images = counted(facts.images_without_pair, "image");
-            notes.push(format!("{images} {these}: {they} that nothing determines"));
+            notes.push(format!("{images} {these}: no pair determines {they}"));
         }
         let numbers = self.nodes.iter().map(|(&id, &node)| (node, id));
         let mut numbers: Vec<(u32, i64)> = numbers.collect();
@@ -157,7 +160,8 @@ impl Tables {
 }
 
 /// The images whose focal length is a guess of a camera that no two others have, and the cameras with a
-/// guess that three images or more have, of the images that have a pair. O(images).
+/// guess that three images or more have, of the images that have a pair; and all images with a guess.
+/// O(images).
 ///
 /// # Errors
 /// Those of SQLite.
@@ -165,10 +169,10 @@ pub(super) fn guesses(
     connection: &Connection,
     nodes: &HashMap<i64, u32>,
     paired: &BTreeSet<u32>,
-) -> Result<[usize; 2], DatabaseError> {
+) -> Result<[usize; 3], DatabaseError> {
     let (Some(known), Some(cameras)) = (of_cameras(connection)?, of_images(connection, nodes)?)
     else {
-        return Ok([0; 2]);
+        return Ok([0; 3]);
     };
     let mut images: HashMap<i64, usize> = HashMap::new();
     for camera in paired.iter().filter_map(|node| cameras.get(node)) {
@@ -177,7 +181,8 @@ pub(super) fn guesses(
         }
     }
     let few = images.values().filter(|&&count| count < SELF_CALIBRATED);
-    Ok([few.clone().sum(), images.len() - few.count()])
+    let shared = images.len() - few.clone().count();
+    Ok([few.sum(), shared, images.values().sum()])
 }
 
 /// Of how many images of one camera mappers usually find its focal length.

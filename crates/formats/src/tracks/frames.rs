@@ -53,11 +53,12 @@ pub struct Frames {
     /// How many groups have base lines that are not independent (five sensors, or several on a line):
     /// for them the answer supposes what is proved for independent ones only.
     pub dependent: usize,
-    /// The frames of rigs with a sensor whose place is not known: cameras and the numbers of their
-    /// sensors.
+    /// The frames of rigs: cameras and the numbers of their sensors.
     linked: Vec<Vec<(u32, u32)>>,
-    /// For the numbers of sensors whether the place is known; sensors at one place have one number.
+    /// For the numbers of sensors whether the place is known, and whether that of any sensor of the rig
+    /// is not; sensors at one place have one number.
     known: Vec<bool>,
+    open: Vec<bool>,
     /// The camera of every image, where some are one.
     cameras: Vec<u32>,
 }
@@ -134,7 +135,7 @@ pub(crate) fn read(
 }
 
 impl Frames {
-    /// Numbers for the sensors of rigs of which one's place is not known; those at one place have one.
+    /// Numbers for the sensors of rigs; those at one place have one.
     fn number_sensors(
         &mut self,
         rigs: &BTreeMap<i64, Rig>,
@@ -143,9 +144,7 @@ impl Frames {
         let mut numbers = BTreeMap::new();
         for (&id, rig) in rigs {
             let of_rig = || rig.sensors.keys().map(|&sensor| (id, sensor));
-            if of_rig().all(|key| places[&key].is_some()) {
-                continue;
-            }
+            let is_open = of_rig().any(|key| places[&key].is_none());
             let known: Vec<[f64; 3]> = of_rig().filter_map(|key| places[&key]).collect();
             let near = near(&known);
             for key in of_rig() {
@@ -158,6 +157,7 @@ impl Frames {
                 let number = same.map_or(self.known.len() as u32, |other| numbers[&other]);
                 if same.is_none() {
                     self.known.push(places[&key].is_some());
+                    self.open.push(is_open);
                 }
                 numbers.insert(key, number);
             }
@@ -275,8 +275,18 @@ impl Frames {
 
     /// The frames of rigs with base lines that are not known; none where all are.
     pub fn rig_frames(&self) -> RigFrames {
-        RigFrames::new(self.linked.iter().cloned(), self.known.clone())
-            .expect("frames that have been checked")
+        self.frames_of(|sensor| self.open[sensor as usize])
+    }
+
+    /// The frames of all rigs.
+    pub fn all_frames(&self) -> RigFrames {
+        self.frames_of(|_| true)
+    }
+
+    fn frames_of(&self, is_meant: impl Fn(u32) -> bool) -> RigFrames {
+        let linked = self.linked.iter();
+        let linked = linked.filter(|images| images.iter().any(|&(_, sensor)| is_meant(sensor)));
+        RigFrames::new(linked.cloned(), self.known.clone()).expect("frames that have been checked")
     }
 
     /// The hash of these frames, as certificates name them; nothing where no base line is unknown.

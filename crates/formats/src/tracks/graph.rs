@@ -300,9 +300,9 @@ impl TrackGraph {
         if facts.cameras_without_point > 0 {
             let cameras = counted(facts.cameras_without_point, "camera");
             let see = if facts.cameras_without_point == 1 {
-                "sees no track that counts: in no component"
+                "sees no track that counts: no track determines it"
             } else {
-                "see no track that counts: in no component"
+                "see no track that counts: no track determines them"
             };
             notes.push(format!("{cameras} {see}"));
         }

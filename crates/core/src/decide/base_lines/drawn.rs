@@ -5,8 +5,8 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use super::DRAWS;
 use super::members::{Layout, Member, Members};
+use super::{DRAWS, Turns};
 use crate::decide::evidence::ModularDraw;
 use crate::geometry::draw::DrawKey;
 use crate::geometry::plane_flow::directions;
@@ -39,19 +39,23 @@ pub(super) struct Motion {
 }
 
 impl<'a> Drawn<'a> {
-    /// `None` if a rotation is none, or two centres of an edge coincide. All rotations are about one
-    /// axis if that is asked for. The order of what is drawn is that of docs/certificate.md, section 13.
+    /// `None` if a rotation is none, or two centres of an edge coincide. Frames turn as that is asked
+    /// for. The order of what is drawn is that of docs/certificate.md, section 13.
     pub(super) fn new(
         members: &'a Members,
         layout: &'a Layout,
         key: &DrawKey,
-        about_one_axis: bool,
+        turns: Turns,
     ) -> Option<Self> {
         let field = PrimeField::mersenne61();
         let mut random = key.coordinates(&field);
         let mut rotations = Vec::new();
         let mut origins = Vec::new();
-        let axis = about_one_axis.then(|| vector(&mut random));
+        let axis = match turns {
+            Turns::General => None,
+            Turns::AboutOneAxis => Some(vector(&mut random)),
+            Turns::No => Some([0; 3]),
+        };
         for _ in 0..layout.frames.len() {
             let turn = match axis {
                 Some(axis) => {

@@ -135,6 +135,8 @@ pub(super) struct Members {
     pub(super) outside: usize,
     /// How many such nodes there are.
     pub(super) alone: usize,
+    /// How many frames and unknown places there are of which no member has an image: each moves by itself.
+    pub(super) unseen: usize,
 }
 
 impl Members {
@@ -176,7 +178,18 @@ impl Members {
             }
         });
         let all = all.collect();
+        let seen = layout.at.iter().filter(|&(&v, _)| count[v as usize] > 0);
+        let (mut frames, mut places): (Vec<usize>, Vec<usize>) = seen
+            .map(|(_, &(frame, sensor))| (frame, layout.number[sensor as usize]))
+            .map(|(frame, place)| (frame, place.map_or(0, |place| place + 1)))
+            .unzip();
+        for seen in [&mut frames, &mut places] {
+            seen.sort_unstable();
+            seen.dedup();
+        }
+        places.retain(|&place| place > 0);
         Self {
+            unseen: layout.frames.len() - frames.len() + layout.unknown - places.len(),
             all,
             single: graph.nodes() - layout.at.len(),
             shared,

@@ -124,8 +124,8 @@ fn case(dice: &mut Dice) -> Case {
     }
 }
 
-/// The rotation that is the product of two reflections.
-fn turned(dice: &mut Dice) -> [[u64; 3]; 3] {
+/// The rotation that is the product of two reflections; about one axis if their normals are in one plane.
+fn turned(dice: &mut Dice, turns: Turns) -> [[u64; 3]; 3] {
     let reflection = |v: [u64; 3]| -> [[u64; 3]; 3] {
         let length = v.iter().fold(0, |sum, &x| (sum + times(x, x)) % P);
         let factor = times(2, power(length, P - 2));
@@ -136,7 +136,11 @@ fn turned(dice: &mut Dice) -> [[u64; 3]; 3] {
             })
         })
     };
-    let mut vector = || std::array::from_fn(|_| 1 + dice.roll(P - 1));
+    let mut vector = || match (turns, dice.roll(P - 1)) {
+        (Turns::No, _) => [1, 2, 3],
+        (Turns::AboutOneAxis, t) => [1 + t, 2, 3 + 4 * t % P],
+        (Turns::General, t) => [1 + t, 1 + dice.roll(P - 1), 1 + dice.roll(P - 1)],
+    };
     let (a, b) = (reflection(vector()), reflection(vector()));
     std::array::from_fn(|r| {
         std::array::from_fn(|c| (0..3).fold(0, |sum, k| (sum + times(a[r][k], b[k][c])) % P))
@@ -145,7 +149,7 @@ fn turned(dice: &mut Dice) -> [[u64; 3]; 3] {
 
 /// The dimension of all motions, of all cameras, points, origins of frames and places of sensors, by
 /// the whole matrix: the cross products of all observations, and an equation for each image.
-fn motions(case: &Case, dice: &mut Dice) -> usize {
+fn motions(case: &Case, dice: &mut Dice, turns: Turns) -> usize {
     let (frames, known) = (&case.images, &case.known);
     let sensors = known.len();
     let columns = 3 * (case.nodes + frames.len() + sensors);
@@ -155,7 +159,7 @@ fn motions(case: &Case, dice: &mut Dice) -> usize {
     let origins: Vec<[u64; 3]> = frames.iter().map(|_| vector()).collect();
     let mut rows: Vec<Vec<u64>> = Vec::new();
     for (f, images) in frames.iter().enumerate() {
-        let turn = turned(dice);
+        let turn = turned(dice, turns);
         for &(node, sensor) in images {
             for r in 0..3 {
                 let mut row = vec![0; columns];
@@ -195,14 +199,10 @@ fn motions(case: &Case, dice: &mut Dice) -> usize {
     columns - rank(rows)
 }
 
-/// What the matrix of all of it says too: the places of sensors in no frame, and for frames that see
-/// each other's sensors where their rig begins, are free there.
-fn gauge(case: &Case) -> usize {
-    let (frames, known) = (&case.images, &case.known);
-    let used = |sensor: u32| frames.iter().flatten().any(|&(_, k)| k == sensor);
-    let mut free = 0;
-    let mut linked: Vec<u32> = (0..known.len() as u32).collect();
-    for images in frames {
+/// For every sensor one of those that frames link it with.
+fn linked(case: &Case) -> Vec<u32> {
+    let mut linked: Vec<u32> = (0..case.known.len() as u32).collect();
+    for images in &case.images {
         for &(_, sensor) in images {
             let (from, to) = (linked[sensor as usize], linked[images[0].1 as usize]);
             linked
@@ -211,6 +211,16 @@ fn gauge(case: &Case) -> usize {
                 .for_each(|k| *k = to);
         }
     }
+    linked
+}
+
+/// What the matrix of all of it says too: the places of sensors in no frame, and for frames that see
+/// each other's sensors where their rig begins, are free there.
+fn gauge(case: &Case) -> usize {
+    let (frames, known) = (&case.images, &case.known);
+    let used = |sensor: u32| frames.iter().flatten().any(|&(_, k)| k == sensor);
+    let mut free = 0;
+    let linked = linked(case);
     for rig in &case.rigs {
         for sensor in rig.clone() {
             let same = |k: &u32| linked[*k as usize] == linked[sensor as usize];
@@ -273,7 +283,7 @@ fn as_the_whole_matrix_says() {
             continue;
         };
         cases += 1;
-        let kernel = motions(&case, &mut dice) - gauge(&case);
+        let kernel = motions(&case, &mut dice, Turns::General) - gauge(&case);
         let unknowns = 3
             * (case.nodes - case.images.iter().map(Vec::len).sum::<usize>()
                 + case.images.len()
@@ -293,7 +303,11 @@ fn as_the_whole_matrix_says() {
                 rigs: case.rigs.clone(),
                 ..case
             };
-            assert_eq!(motions(&larger, &mut dice) - gauge(&case), kernel, "{seed}");
+            assert_eq!(
+                motions(&larger, &mut dice, Turns::General) - gauge(&case),
+                kernel,
+                "{seed}"
+            );
             told += usize::from(found.parts_are_all() && found.parts > 1);
             untold += usize::from(!found.parts_are_all());
         }
@@ -304,6 +318,42 @@ fn as_the_whole_matrix_says() {
     }
     assert!(cases > 500 && determined > 100 && refuted > 100 && gained > 30 && open < 10);
     assert!(told > 100 && untold < 10, "{told} {untold}");
+}
+
+/// How frames have to turn, by the whole matrix at frames that do not turn, or about one axis; with base lines
+/// that are known, unknown or both.
+#[test]
+fn turns_that_are_needed() {
+    let mut counts = [[0; 3]; 2];
+    for seed in 0..800 {
+        let mut dice = Dice(seed);
+        let mut case = case(&mut dice);
+        if seed % 3 == 0 {
+            case.known.fill(true);
+        }
+        let kernel = |turns| motions(&case, &mut Dice(seed), turns);
+        let mut fixed: Vec<u32> = linked(&case);
+        let mut known = case.known.iter();
+        fixed.retain(|_| known.next() == Some(&true));
+        let sensors = fixed.len();
+        fixed.sort_unstable();
+        fixed.dedup();
+        let trivial = if fixed.len() < sensors { 3 } else { 4 } + gauge(&case);
+        if kernel(Turns::General) != trivial {
+            continue;
+        }
+        let expected = [Turns::No, Turns::AboutOneAxis].into_iter();
+        let expected = expected.into_iter().find(|&turns| kernel(turns) == trivial);
+        let expected = expected.unwrap_or(Turns::General);
+        let graph = Graph::new(case.nodes as u32, case.edges.iter().copied()).unwrap();
+        let frames = RigFrames::new(case.images.iter().cloned(), case.known.clone()).unwrap();
+        let found = Turns::needed(&graph, &frames, 7, &Watch::default()).unwrap();
+        assert_eq!(found, expected, "{seed}");
+        counts[usize::from(frames.has_unknown())][found as usize] += 1;
+    }
+    // Base lines that are all known need one axis at most.
+    assert!(counts[0][0] > 50 && counts[0][1] > 5, "{counts:?}");
+    assert!(counts[1].iter().all(|&count| count > 10), "{counts:?}");
 }
 
 /// Two clusters that one sensor each sees: two frames leave the base line a line's worth, three settle it.
