@@ -69,7 +69,7 @@ pub(super) fn run(session: &Session, arguments: &ConvertArguments) -> Result<u8>
     let name = path.display();
     let first = graphs.next();
     let first = first.with_context(|| format!("{name}: the file holds no graph"))??;
-    let (noted, known) = given::read(file, &first)?;
+    let (noted, known) = given::read(file, &first, arguments.given.is_one_frame())?;
     say_notes(&noted)?;
     let text = match arguments.to {
         To::Pairs | To::Given => {

@@ -13,7 +13,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 use viewcert::Known;
 use viewcert::decide as verdict;
-use viewcert::decide::{CountSolutions, Prime, Value, Verdict};
+use viewcert::decide::{CountSolutions, Prime, Verdict};
 use viewcert::here::{Centres, Here};
 use viewcert::intrinsics::{Certified, Sensors};
 use viewcert::watch::Watch;
@@ -107,6 +107,7 @@ impl Decided {
             plan.given.as_deref(),
             input,
             plan.question.model,
+            plan.one_frame,
         )? {
             Beside::Known(input, known) => {
                 let (input, sensors) = intrinsics::read(plan.intrinsics.as_ref(), input)?;
@@ -267,7 +268,7 @@ impl Work<'_> {
         }
         Ok(match scope.planar() {
             Some(planar) if plan.asked.planar => planar.is_determined(),
-            _ => verdict.value != Value::NotFiniteSolvable,
+            _ => verdict.is_good(),
         })
     }
 

@@ -37,6 +37,7 @@ impl DrawArguments {
     pub(super) fn plan(&self) -> Result<Plan> {
         let mut plan = self.question.plan(std::slice::from_ref(&self.graph))?;
         plan.given = self.given.path().map(Into::into);
+        plan.one_frame = self.given.is_one_frame();
         plan.intrinsics = self.intrinsics.from();
         plan.request = self.advice.request();
         for file in &self.files {

@@ -32,6 +32,7 @@ impl ExportArguments {
     pub(super) fn plan(&self) -> Result<Plan> {
         let mut plan = self.question.plan_for_mappers(&self.graph)?;
         plan.given = self.given.path().map(Into::into);
+        plan.one_frame = self.given.is_one_frame();
         plan.request = Request {
             export: Some(self.folder.clone()),
             ..Request::default()

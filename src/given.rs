@@ -20,6 +20,11 @@ pub(super) struct GivenArguments {
     /// What is known besides the pairs; see `verify help given`.
     #[arg(long, value_name = "FILE", visible_alias = "cameras")]
     given: Option<PathBuf>,
+
+    /// Displacements and positions of --given are in the frame of the directions: every rotation is known
+    /// in it.
+    #[arg(long, requires = "given")]
+    one_frame: bool,
 }
 
 /// What a file of things given looks like: `verify help given`.
@@ -41,10 +46,12 @@ What --given FILE holds: what is known besides the pairs, one thing on each line
                              is determined at these very cameras is answered besides.
 A table may say the same: name,x,y,z or name,qw,qx,qy,qz,tx,ty,tz or name,p11,..,p34 in its head. A COLMAP model (a folder) as
 FILE gives the poses of its images; all but a folder may be standard input (-). Arrays are for Python:
-viewcert.at_cameras(graph, array). A COLMAP database as FILE gives the positions of its pose priors, without the vectors.
+viewcert.at_cameras(graph, array). A COLMAP database as FILE gives the positions of its pose priors.
 Cameras are called as in the graph; fields, quotes and comments are those of edge lists. Vectors stand
-on all lines or on none, in the frame of the directions: with them the answer is about these vectors,
-without them about vectors in general position. Parts and displacements do not go together.
+on all lines or on none: with them the answer is about these vectors, without them about vectors in general
+position. Parts and displacements do not go together.
+Displacements and positions have a frame of their own: the rotation of each part of the graph against it is
+unknown. A line `one-frame`, or the option --one-frame, says that it is the frame of the directions.
 The certificate states what was given, and `verify check` asks for the same file.
 ";
 
@@ -52,6 +59,11 @@ impl GivenArguments {
     /// The file.
     pub(super) fn path(&self) -> Option<&Path> {
         self.given.as_deref()
+    }
+
+    /// Whether it is in the frame of the directions.
+    pub(super) fn is_one_frame(&self) -> bool {
+        self.one_frame
     }
 }
 
@@ -80,8 +92,9 @@ pub(super) fn ensure_one_standard_input(
 pub(super) fn read<'a>(
     given: Option<&Path>,
     input: &'a NamedGraph,
+    one_frame: bool,
 ) -> Result<(Cow<'a, NamedGraph>, Known)> {
-    let given = viewcert_formats::given(given, input)?;
+    let given = viewcert_formats::given(given, input, one_frame)?;
     Ok((noted(input, given.notes), given.known))
 }
 
@@ -101,8 +114,9 @@ pub(super) fn read_beside<'a>(
     given: Option<&Path>,
     input: &'a NamedGraph,
     model: Model,
+    one_frame: bool,
 ) -> Result<Beside<'a>> {
-    Ok(match beside(given, input, model)? {
+    Ok(match beside(given, input, model, one_frame)? {
         viewcert_formats::Beside::Cameras(cameras) => {
             let input = noted(input, cameras.notes).into_owned();
             Beside::Cameras(input, cameras.centres)

@@ -42,7 +42,7 @@ pub(super) fn run(session: &Session, arguments: &ModelsArguments) -> Result<u8> 
         ensure!(arguments.graphs.len() <= 1, reason);
     }
     let each = |out: &mut _, input: &NamedGraph, _| {
-        let (input, known) = given::read(given, input)?;
+        let (input, known) = given::read(given, input, arguments.given.is_one_frame())?;
         let input = &*input;
         let decided = |model: Model| -> Result<Verdict> {
             let question = Question {

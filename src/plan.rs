@@ -26,6 +26,8 @@ pub(super) struct Plan {
     pub(super) read: ReadOptions,
     /// The file with what is given besides.
     pub(super) given: Option<PathBuf>,
+    /// Whether that is in the frame of the directions.
+    pub(super) one_frame: bool,
     /// Where classes of cameras are from, if that is asked.
     pub(super) intrinsics: Option<IntrinsicsFrom>,
     /// The question, without what is given.
@@ -122,6 +124,7 @@ impl Plan {
             graphs: graphs.to_vec(),
             read,
             given: None,
+            one_frame: false,
             intrinsics: None,
             question: model.into(),
             prime: Prime::Auto,
@@ -280,7 +283,7 @@ impl Plan {
     /// # Errors
     /// If the question has no use for it.
     pub(super) fn options(&self, known: Known) -> Result<Options> {
-        if matches!(known, Known::Displacements(_)) {
+        if !matches!(known, Known::Parts(_)) {
             ensure!(
                 !self.asked.planar,
                 "--planar: in a plane nothing is proved about known displacements; leave out one of the \

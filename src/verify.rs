@@ -123,6 +123,7 @@ impl VerifyArguments {
     pub(super) fn plan(&self) -> Result<Plan> {
         let mut plan = self.question.plan(&self.graphs)?;
         plan.given = self.given.path().map(Into::into);
+        plan.one_frame = self.given.is_one_frame();
         plan.intrinsics = self.intrinsics.from();
         plan.question.whole_graph = matches!(self.method, MethodName::Matrix);
         plan.question.counting = !matches!(self.method, MethodName::Ranks);

@@ -38,6 +38,7 @@ mod noticed;
 mod outputs;
 mod overview;
 mod overview_page;
+mod own_frame;
 mod page_browser;
 mod pages;
 mod parts;

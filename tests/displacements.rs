@@ -34,7 +34,7 @@ impl File {
     }
 }
 
-/// What is given, for lines of two cameras or one and perhaps three numbers.
+/// What is given in the frame of the directions, for lines of two cameras or one and perhaps three numbers.
 fn given(text: &str) -> String {
     let line = |line: &str| {
         let fields = line.split('#').next().unwrap().split([' ', '\t', ',']);
@@ -44,7 +44,8 @@ fn given(text: &str) -> String {
             _ => format!("displacement {line}\n"),
         }
     };
-    text.lines().map(line).collect()
+    let lines: String = text.lines().map(line).collect();
+    format!("{lines}one-frame\n")
 }
 
 fn decided(pairs: &str, known: &str, more: &[&str]) -> Run {
@@ -298,7 +299,7 @@ fn what_knows_nothing_of_displacements_refuses_by_name() {
         assert_eq!((run.code, run.out.as_str()), (2, ""), "{more:?}");
         assert!(run.err.contains(why), "{}", run.err);
     }
-    let file = File::new("known.txt", "displacement 0 1\n");
+    let file = File::new("known.txt", "displacement 0 1\none-frame\n");
     let known = ["--model", "calibrated", "--given", file.text()];
     // Components can be written all the same.
     let folder = tempfile::tempdir().unwrap();
@@ -349,7 +350,7 @@ fn certificates_and_both_checkers() {
         let folder = graph.folder.path();
         let (own, other) = (folder.join("known.txt"), folder.join("other.txt"));
         std::fs::write(&own, given(known)).unwrap();
-        std::fs::write(&other, "displacement 0 2\n").unwrap();
+        std::fs::write(&other, "displacement 0 2\none-frame\n").unwrap();
         let certificate = folder.join("certificate.json");
         let [own, other, certificate] = [&own, &other, &certificate].map(|p| p.to_str().unwrap());
         let run = verify(&[
@@ -420,7 +421,7 @@ fn certificates_and_both_checkers() {
     }
     // Without any the certificate is what it always was, and supposes nothing.
     let graph = File::new("graph.txt", &cycle(4));
-    let known = File::new("known.txt", "displacement 0 1\n");
+    let known = File::new("known.txt", "displacement 0 1\none-frame\n");
     let run = verify(&[graph.text(), "--model", "calibrated", "--certificate", "-"]);
     assert!(!run.out.contains("displacements"), "{}", run.out);
     let plain = File::new("plain.json", &run.out);
@@ -438,7 +439,7 @@ fn certificates_and_both_checkers() {
 /// Another table of results cannot be decided again without what it supposes.
 #[test]
 fn claims_that_rest_on_displacements_are_no_claims_of_pairs() {
-    let file = File::new("known.txt", "displacement 0 1\n");
+    let file = File::new("known.txt", "displacement 0 1\none-frame\n");
     let own = [
         "-",
         "--model",
@@ -533,7 +534,7 @@ fn scaled_components_that_share_a_camera_are_one() {
 #[test]
 fn the_file_is_no_output() {
     let graph = File::new("graph.txt", &cycle(4));
-    let known = File::new("known.svg", "displacement 0 1\n");
+    let known = File::new("known.svg", "displacement 0 1\none-frame\n");
     let question = ["--model", "calibrated", "--given", known.text()];
     for asked in [
         &[graph.text(), "--certificate", known.text()][..],
@@ -544,7 +545,7 @@ fn the_file_is_no_output() {
         assert!(run.err.contains("known.svg"), "{asked:?}: {}", run.err);
         assert_eq!(
             std::fs::read_to_string(known.text()).unwrap(),
-            "displacement 0 1\n"
+            "displacement 0 1\none-frame\n"
         );
     }
 }

@@ -534,7 +534,9 @@ fn pairs_that_are_too_weak() {
     let run = verify(&["--tracks", path]);
     assert_eq!(run.code, 2);
     assert!(
-        run.err.contains("no tracks: 0 pairs are used") && run.err.contains("--min-inliers"),
+        run.err
+            .contains("no tracks: no pair has enough inliers to be used")
+            && run.err.contains("--min-inliers"),
         "{}",
         run.err
     );

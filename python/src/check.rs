@@ -14,7 +14,7 @@ use viewcert::graph::{Displacements, sha256};
 use viewcert::intrinsics::Sensors;
 use viewcert_check::program::{is_certificate, no_certificate};
 use viewcert_check::{
-    BaseLines, Certificate, Failure, IntrinsicsCertificate, Limits, Strength, Unreadable,
+    BaseLines, Certificate, Failure, IntrinsicsCertificate, Limits, OwnFrame, Strength, Unreadable,
 };
 use viewcert_formats::{NamedGraph, ReadOptions, read_meant, with_rigs};
 
@@ -45,6 +45,9 @@ pub(crate) struct Verified {
     displacements: usize,
     /// What frames add where base lines are unknown: the answer, if the certificate has one.
     base_lines: Option<&'static str>,
+    /// What is determined beside displacements in a frame of their own: the answer, if the certificate has
+    /// one.
+    own_frame: Option<&'static str>,
     /// The question.
     model: String,
     /// All of it in words.
@@ -68,8 +71,10 @@ impl From<viewcert_check::Verified> for Verified {
             displacements: verified
                 .displacements
                 .as_ref()
-                .map_or(0, |known| known.groups),
+                .map_or(0, |known| known.groups)
+                + verified.own_frame.as_ref().map_or(0, |known| known.groups),
             base_lines: verified.base_lines.as_ref().map(BaseLines::value),
+            own_frame: verified.own_frame.as_ref().map(OwnFrame::value),
             model: verified.model.to_string(),
             text: verified.to_string(),
             sha256: verified.sha256,
@@ -82,7 +87,7 @@ enum Given {
     /// From the certificate.
     Held,
     /// From memory, with known parts and displacements.
-    Graph(Arc<NamedGraph>, Vec<Vec<u32>>, Displacements),
+    Graph(Arc<NamedGraph>, Vec<Vec<u32>>, Known),
     /// From a file.
     File(PathBuf),
 }
@@ -142,6 +147,7 @@ fn graph_in_file(certificate: &Certificate, path: &Path) -> anyhow::Result<viewc
     parts=None,
     displacements=None,
     vectors=None,
+    one_frame=false,
     file=None,
     max_operations=None
 ))]
@@ -152,6 +158,7 @@ pub(crate) fn check(
     parts: Option<Vec<Vec<u32>>>,
     displacements: Option<Vec<Vec<u32>>>,
     vectors: Option<Vec<[String; 3]>>,
+    one_frame: bool,
     file: Option<PathBuf>,
     max_operations: Option<u64>,
 ) -> PyResult<Verified> {
@@ -160,11 +167,15 @@ pub(crate) fn check(
             let nodes = graph.0.graph.nodes() as u32;
             let groups = displacements.unwrap_or_default();
             let known = known_displacements(nodes, &groups, vectors.as_deref())?;
-            let known = with_rigs(Known::Displacements(known), &graph.0);
-            let known = known.map_err(|error| InputError::new_err(error.to_string()))?;
-            let Known::Displacements(known) = known else {
-                unreachable!("displacements stay displacements")
+            let known = match one_frame || known.is_empty() {
+                true => Known::Displacements(known),
+                false => Known::OwnFrame {
+                    given: known,
+                    rigs: Displacements::default(),
+                },
             };
+            let known = with_rigs(known, &graph.0);
+            let known = known.map_err(|error| InputError::new_err(error.to_string()))?;
             Given::Graph(Arc::clone(&graph.0), parts.unwrap_or_default(), known)
         }
         (None, Some(file)) => Given::File(file),
@@ -183,6 +194,14 @@ pub(crate) fn check(
                 let mut graph = graph.map_err(Problem::Graph)?;
                 if let Some(hash) = input.frames.as_ref().and_then(|frames| frames.sha256()) {
                     graph = graph.with_frames(hex(&hash));
+                }
+                let (known, given) = match known {
+                    Known::OwnFrame { given, rigs } => (rigs, Some(given)),
+                    Known::Displacements(known) => (known, None),
+                    Known::Parts(_) => (Displacements::default(), None),
+                };
+                if let Some(given) = given {
+                    graph = graph.with_own_frame(hex(&given.sha256()));
                 }
                 Some(if known.is_empty() {
                     graph

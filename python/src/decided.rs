@@ -9,7 +9,7 @@ use pyo3::types::PyBytes;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-use viewcert::decide::Question;
+use viewcert::decide::{OwnFrame, Question};
 use viewcert::graph::{Coordinate, Displacements};
 use viewcert::intrinsics::{Certified, Class, Metric, Sensors};
 use viewcert::linalg::prime::PrimeField;
@@ -223,7 +223,7 @@ impl Wanted {
 /// Decides a graph.
 #[pyfunction]
 #[pyo3(signature = (
-    graph, wanted, *, parts=None, displacements=None, vectors=None, time_limit=None,
+    graph, wanted, *, parts=None, displacements=None, vectors=None, one_frame=false, time_limit=None,
     memory_limit=None, progress=None
 ))]
 #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
@@ -234,6 +234,7 @@ pub(crate) fn decide(
     parts: Option<Vec<Vec<u32>>>,
     displacements: Option<Vec<Vec<u32>>>,
     vectors: Option<Vec<[String; 3]>>,
+    one_frame: bool,
     time_limit: Option<f64>,
     memory_limit: Option<u64>,
     progress: Option<Py<PyAny>>,
@@ -250,10 +251,13 @@ pub(crate) fn decide(
     }
     let groups = displacements.unwrap_or_default();
     let displacements = known_displacements(nodes, &groups, vectors.as_deref())?;
-    let known = if displacements.is_empty() {
-        Known::Parts(known.parts)
-    } else {
-        Known::Displacements(displacements)
+    let known = match (displacements.is_empty(), one_frame) {
+        (true, _) => Known::Parts(known.parts),
+        (false, true) => Known::Displacements(displacements),
+        (false, false) => Known::OwnFrame {
+            given: displacements,
+            rigs: Displacements::default(),
+        },
     };
     let known = with_rigs(known, &input).map_err(|error| wrong(&error))?;
     let options = wanted.options(known, job.watch());
@@ -267,6 +271,14 @@ pub(crate) fn decide(
         Arc::make_mut(&mut input).notes.push(note.to_owned());
     }
     Ok(Decided::new(input, verdict, &wanted, start.elapsed()))
+}
+
+impl Decided {
+    /// The displacements that are given.
+    fn displaced(&self) -> &Displacements {
+        let own_frame = self.verdict.own_frame.as_ref();
+        own_frame.map_or(&self.verdict.displacements, |found| &found.given)
+    }
 }
 
 /// A report as `json`, `text` or `html`.
@@ -302,19 +314,39 @@ impl Decided {
     /// The answer.
     #[getter]
     fn value(&self) -> &'static str {
+        self.verdict.answer_name()
+    }
+
+    /// The answer without displacements in a frame of their own.
+    #[getter]
+    fn measured(&self) -> &'static str {
         self.verdict.value.name()
+    }
+
+    /// Whether displacements have a frame of their own.
+    #[getter]
+    fn has_own_frame(&self) -> bool {
+        self.verdict.own_frame.is_some()
+    }
+
+    /// The nodes of which such a displacement is given and nothing else: no pair, no rig.
+    fn only_given(&self) -> Vec<u32> {
+        let found = self.verdict.own_frame.as_ref();
+        found.map_or_else(Vec::new, OwnFrame::only_given)
     }
 
     /// The rank that was found.
     #[getter]
     fn rank(&self) -> usize {
-        self.verdict.rank
+        let own_frame = self.verdict.own_frame.as_ref();
+        own_frame.map_or(self.verdict.rank, |found| found.rank)
     }
 
     /// The rank of a finite solvable graph with as many nodes.
     #[getter]
     fn required(&self) -> usize {
-        self.verdict.required
+        let own_frame = self.verdict.own_frame.as_ref();
+        own_frame.map_or(self.verdict.required, |found| found.required)
     }
 
     /// How strong the answer, the rank and the components are: words, and exponents of error
@@ -331,13 +363,13 @@ impl Decided {
 
     /// The sets of nodes whose displacements it takes for given.
     fn displacements(&self) -> Vec<Vec<u32>> {
-        self.verdict.displacements.groups().to_vec()
+        self.displaced().groups().to_vec()
     }
 
     /// For each of these the vectors from its first node to the others, in one unit, if they are
     /// given.
     fn vectors(&self) -> Option<Vec<Vec<[i128; 3]>>> {
-        self.verdict.displacements.vectors().map(<[_]>::to_vec)
+        self.displaced().vectors().map(<[_]>::to_vec)
     }
 
     /// The known parts that it rests on.

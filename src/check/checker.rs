@@ -17,6 +17,8 @@ pub(super) struct Named<'a> {
     pub(super) graph: Option<&'a Path>,
     /// The file of what is given besides.
     pub(super) given: Option<&'a Path>,
+    /// Whether that is in the frame of the directions.
+    pub(super) one_frame: bool,
     /// Where the classes of cameras are from.
     pub(super) classes: Option<&'a IntrinsicsFrom>,
     /// How the graph is read.
@@ -82,7 +84,7 @@ impl Named<'_> {
             Some(Model::Affine) => viewcert::Model::Affine,
             Some(Model::Projective) | None => viewcert::Model::Projective,
         };
-        match beside(self.given, input, model)? {
+        match beside(self.given, input, model, self.one_frame)? {
             Beside::Cameras(cameras) => {
                 let hash = hex(&cameras.centres.sha256());
                 ensure!(
@@ -99,6 +101,12 @@ impl Named<'_> {
                     graph.with_context(|| file.display().to_string())
                 }
                 Known::Displacements(known) => Ok(graph.with_displacements(hex(&known.sha256()))),
+                Known::OwnFrame { given, rigs } => {
+                    if !rigs.is_empty() {
+                        graph = graph.with_displacements(hex(&rigs.sha256()));
+                    }
+                    Ok(graph.with_own_frame(hex(&given.sha256())))
+                }
             },
         }
     }

@@ -208,6 +208,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<u8> {
             let named = Named {
                 graph: arguments.graph.as_deref(),
                 given,
+                one_frame: arguments.given.is_one_frame(),
                 classes: from.as_ref(),
                 read: &options()?,
             };

@@ -199,6 +199,7 @@ impl Claim {
         }
         for (member, what) in [
             ("displacements", "rests on known displacements"),
+            ("own_frame", "rests on known displacements"),
             ("parts", "is about a graph with known parts"),
         ] {
             if record.get(member).is_some() {

@@ -5,7 +5,7 @@ It shares no code, language, arithmetic, parser or dependency with the first one
 read: a file is a section of that page, each function the list of conditions of one part of it, in the page's order,
 and names the section. Each file builds on those before it: notation (1), graphs (2), document (3), draws (4),
 elimination and matrices (7), cores (6), lower (7), bodies (5), upper (7), pieces (6, 7, 9), claim (8), solutions (12),
-base lines (13), here (14), intrinsics (15).
+base lines (13), here (14), intrinsics (15), supposed and own_frame (16).
 Whatever is not shown to be right is rejected: an exception that nobody foresaw is a rejection as well.
 """
 
@@ -14,31 +14,32 @@ import gzip
 import itertools
 import sys
 
-from base_lines import BaseLines
 from here import FORMAT as AT_CAMERAS
 from here import HereCheck
 from intrinsics import FORMAT as OF_INTRINSICS
 from intrinsics import IntrinsicsCheck
 from graphs import read_given
 from notation import Reject, TooLarge, Unreadable, need, parse
+from own_frame import OwnFrame
 from solutions import WORK_LIMIT
 
 CORE_LIMIT = 200  # core nodes; plain Python needs minutes beyond
 LINE_LIMIT = 2**26  # bytes of a line of many certificates; compressed it may be a thousandth of that
 
 
-class Check(BaseLines):
+class Check(OwnFrame):
     """The check of one certificate. `evidence_claim` is what its evidence proves, to be compared with its claim."""
 
     def __init__(self, data, graph_data=None, core_limit=CORE_LIMIT, given_data=None, work_limit=WORK_LIMIT, expects=False):
         self.core_limit, self.work_limit = core_limit, work_limit
-        bodies, rigid, pieces, solutions, base_lines = self.read_document(data, graph_data, given_data, expects)
+        bodies, rigid, pieces, solutions, base_lines, own_frame = self.read_document(data, graph_data, given_data, expects)
         self.check_bodies(bodies)
         everything = self.cover()
         found, rigid_count = self.check_pieces(rigid, pieces, everything, "section 6: ")
         numbers = [self.count_solutions(value, pieces, found) for value in solutions]
         self.evidence_claim = self.claim_of(found, rigid_count, *numbers)
         self.evidence_claim.update({"base_lines": self.check_base_lines(value) for value in base_lines})
+        self.evidence_claim.update({"own_frame": self.check_own_frame(value) for value in own_frame})
 
     def statements(self):
         """What was verified, for people."""
@@ -62,6 +63,7 @@ class Check(BaseLines):
             f"components: {components['value']} maximal ({strength(components)})",
             *number,
             *[self.supposed_frames() for name in self.claim if name == "base_lines"],
+            *[self.supposed_own_frame() for name in self.claim if name == "own_frame"],
         ]
 
 
@@ -97,8 +99,8 @@ def check_kind(document, graph_data=None, core_limit=CORE_LIMIT, given_data=None
 def need_named(done, given_data, model=None, classes_hash=None, centres_hash=None):
     """Section 3, hypotheses: whoever expects anything names each of them."""
     if given_data is not None and not isinstance(done, Check):
-        parts, displacements, _ = read_given(given_data, done.graph)
-        need(not parts and displacements is None, "section 3: known parts or displacements are given, and it supposes none")
+        parts, *hashes, _ = read_given(given_data, done.graph)
+        need(not parts and hashes == [None, None], "section 3: known parts or displacements are given, and it supposes none")
     need(done.model == (model or "projective"), f"section 3: the model is {done.model}, which is not the one that is named")
     centres, classes = (getattr(done, name).hex() if hasattr(done, name) else None for name in ("centres_hash", "classes_hash"))
     need(centres == centres_hash, "section 3: the given cameras are not those that are named, by their hash")

@@ -8,6 +8,7 @@ import struct
 from elimination import find_pivots
 from graphs import read_given, read_graph, read_graph6
 from notation import a_big, a_list, a_number, a_string, an_int, distinct, increasing, members, need, parse, same
+from supposed import Supposed
 
 
 class Document:
@@ -21,15 +22,15 @@ class Document:
             version = document.get("version")
             need(not same(version, 1), "section 3: version 1, whose draws were not bound to the core; only 2 is read")
             need(same(version, 2), "section 3: the version is not 2")
-        names_of_more = ("displacements", "vectors", "parts", "solutions", "base_lines")
+        names_of_more = ("displacements", "vectors", "parts", "solutions", "base_lines", "own_frame")
         more = [name for name in names_of_more if type(document) is dict and name in document]
         form, _, program, graph, self.model, self.claim, bodies, rigid, pieces, *values = members(
             document, " ".join([names, *more]), "section 3: the document"
         )
         stated = dict(zip(more, values))
         need("displacements" not in stated or "parts" not in stated, "section 3: displacements and parts at once")
-        optional = [name for name in more if name in ("solutions", "base_lines")]
-        solutions, base_lines = ([stated[name] for name in optional if name == own] for own in names_of_more[3:])
+        optional = [name for name in more if name in names_of_more[3:]]
+        solutions, base_lines, own_frame = ([stated[name] for name in optional if name == own] for own in names_of_more[3:])
         need(form == "viewcert certificate", "section 3: the format is another")
         a_string(program, "section 3: program")
         need(self.model in ("projective", "calibrated", "affine"), "section 3: no such model")
@@ -37,8 +38,8 @@ class Document:
         self.read_graph(graph, graph_data)
         self.parts = self.read_known_parts(stated["parts"]) if "parts" in stated else []
         self.expects = expects = expects or graph_data is not None or given_data is not None
-        nothing = [], None, None
-        given_parts, given_hash, self.given_frames = nothing if given_data is None else read_given(given_data, self.graph)
+        nothing = [], None, None, None
+        given_parts, given_hash, given_own, self.given_frames = nothing if given_data is None else read_given(given_data, self.graph)
         need(not expects or self.parts == given_parts, "section 3: the known parts that are given are others")
         self.check_claim_form(optional)
         # Section 5: what is known is there from the start.
@@ -52,7 +53,16 @@ class Document:
             self.check_vectors(stated["vectors"])
         same_hash = not expects or self.displacements_hash() == given_hash
         need(same_hash, "section 3: the known displacements that are given are others")
-        return bodies, rigid, pieces, solutions, base_lines
+        self.own = None
+        if own_frame:
+            where = "section 16"
+            need(self.model == "calibrated", f"{where}: calibrated model only")
+            need(not self.parts and self.vectors is None, f"{where}: beside known parts or given vectors")
+            groups, vectors, *_ = members(own_frame[0], "groups vectors lower rigid upper", where)
+            self.own = Supposed(groups, vectors, self.graph.n, where)
+        own_hash = self.own and self.own.hash().hex()
+        need(not expects or own_hash == given_own, "section 16: the displacements in a frame of their own are others")
+        return bodies, rigid, pieces, solutions, base_lines, own_frame
 
     def read_graph(self, value, graph_data):
         """Section 3: the graph."""
@@ -136,6 +146,7 @@ class Document:
     def need_independent(self, nodes, where):
         """Section 3: nodes, four at most, are independent, as all are in general position."""
         independent = self.vectors is None or self.are_independent(nodes)
+        independent = independent and (self.own is None or self.own.are_independent(nodes))
         need(independent, f"{where}: the nodes {nodes} are not independent")
 
     def are_independent(self, nodes):
@@ -151,6 +162,7 @@ class Document:
         claim = members(self.claim, " ".join(parts), "section 3: claim")
         own = {"rank": "value required", "solutions": "at_least at_most"}
         own["base_lines"] = "value at_least at_most required about_one_axis"
+        own["own_frame"] = "value at_least at_most required"
         for name, part in zip(parts, claim):
             where = f"section 3: {name}"
             *values, strength, error = members(part, own.get(name, "value") + " strength error_log2", where)
@@ -161,7 +173,7 @@ class Document:
                 a_number(values[0], f"{where}: at_least")
                 if values[1] is not None:
                     a_number(values[1], f"{where}: at_most")
-            elif name != "base_lines":  # all of which section 13 gives
+            elif name not in ("base_lines", "own_frame"):  # all of which sections 13 and 16 give
                 for value, member in zip(values, ("value", "required")):
                     an_int(value, f"{where}: {member}")
             need(strength in ("proof", "error-bound"), f"{where}: no such strength")

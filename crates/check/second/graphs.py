@@ -105,18 +105,21 @@ def read_pairs(data):
 
 
 def read_given(data, graph):
-    """Section 2, files of what is given: known parts in their canonical form, and the hashes of displacements and of frames
-    or None."""
+    """Section 2, files of what is given: known parts in their canonical form, and the hashes of displacements, of those in a
+    frame of their own, and of frames, or None."""
     parts, lines = set(), [(k, line) for k, line in lines_of(data) if not line.startswith(b"#")]
     last = re.fullmatch(b"frames[ \t]([0-9a-fA-F]{64})", lines[-1][1]) if lines else None
     frames = last and last[1].decode().lower()
-    if last and not lines[:-1]:
-        return [], None, frames
     lines = lines[:-1] if last else lines
+    own = re.fullmatch(b"own-frame[ \t]([0-9a-fA-F]{64})", lines[-1][1]) if lines else None
+    lines = lines[:-1] if own else lines
+    own = own and own[1].decode().lower()
+    if (last or own) and not lines:
+        return [], None, own, frames
     for k, line in lines:
         word, numbers = re.fullmatch(b"([a-z]*)[ \t]?(.*)", line, re.DOTALL).groups()
         if word == b"displacements" and len(lines) == 1 and re.fullmatch(b"displacements[ \t][0-9a-fA-F]{64}", line):
-            return [], numbers.decode().lower(), frames
+            return [], numbers.decode().lower(), own, frames
         if not re.match(b"part[ \t]", line):
             raise Unreadable(f"line {k}: neither a part nor, alone, the hash of displacements, nor, last, that of frames")
         part = tuple(sorted(numbers_of(numbers, f"line {k}")))
@@ -129,4 +132,4 @@ def read_given(data, graph):
         parts.add(part)
     if not parts:
         raise Unreadable("nothing is given in it")
-    return [list(part) for part in sorted(parts)], None, frames
+    return [list(part) for part in sorted(parts)], None, own, frames

@@ -72,7 +72,7 @@ class Maker:
     required = check.Check.required
     union = check.Check.union
     is_scaled, scaled = check.Check.is_scaled, frozenset()
-    vectors, vertex, places = None, check.Check.vertex, check.Check.places
+    vectors, own, vertex, places = None, None, check.Check.vertex, check.Check.places
     need_independent = check.Check.need_independent
 
     def merge_once(self):

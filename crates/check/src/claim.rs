@@ -6,6 +6,7 @@ use crate::document::{
     Claims, ComponentsClaim, GraphName, Model, RankClaim, SolutionsClaim, VerdictClaim,
 };
 use crate::evidence::Piece;
+use crate::own_frame::OwnFrame;
 use crate::rejection::{Checked, Failure, Within, ensure};
 use crate::solutions::Count;
 use std::fmt::{self, Display};
@@ -79,6 +80,8 @@ pub struct Verified {
     pub solutions: Option<Count>,
     /// What frames add where base lines are unknown, if that was shown.
     pub base_lines: Option<BaseLines>,
+    /// What displacements in a frame of their own add; all else is about the graph without them.
+    pub own_frame: Option<OwnFrame>,
     /// For people: what else was verified.
     pub notes: Vec<String>,
 }
@@ -127,6 +130,7 @@ pub(crate) fn verify(
         components,
         solutions,
         base_lines: None,
+        own_frame: None,
         notes: notes.collect(),
     })
 }
@@ -304,6 +308,7 @@ impl Display for Verified {
             components,
             solutions,
             base_lines,
+            own_frame,
             notes,
         } = self;
         let (given, cameras) = match model {
@@ -339,6 +344,9 @@ impl Display for Verified {
         }
         if let Some(found) = base_lines {
             write!(f, "\nbase lines: {found}")?;
+        }
+        if let Some(found) = own_frame {
+            write!(f, "\nwith given: {found}")?;
         }
         notes
             .iter()

@@ -52,6 +52,17 @@ pub(crate) fn check_groups(
         "known displacements in the {model} model"
     );
     ensure!(parts.is_empty(), "there are known parts as well");
+    check_form(groups, nodes)?;
+    Ok(Displacements {
+        groups: groups.len(),
+        nodes: groups.iter().map(Vec::len).sum(),
+        given: vectors.is_some(),
+        sha256: hash(groups, vectors),
+    })
+}
+
+/// Verifies that groups are well formed, in a graph with so many nodes.
+pub(crate) fn check_form(groups: &[Vec<u32>], nodes: usize) -> Checked<()> {
     ensure!(!groups.is_empty(), "there is no group");
     let mut seen = vec![false; nodes];
     for (k, group) in groups.iter().enumerate() {
@@ -71,12 +82,7 @@ pub(crate) fn check_groups(
         groups.is_sorted_by(|a, b| a[0] < b[0]),
         "the groups are not in the order of their first nodes"
     );
-    Ok(Displacements {
-        groups: groups.len(),
-        nodes: groups.iter().map(Vec::len).sum(),
-        given: vectors.is_some(),
-        sha256: hash(groups, vectors),
-    })
+    Ok(())
 }
 
 /// Sees that a certificate supposes just those that are known of the given graph.

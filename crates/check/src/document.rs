@@ -2,6 +2,7 @@
 
 pub(crate) mod base_lines;
 mod number;
+pub(crate) mod own_frame;
 pub(crate) mod solutions;
 
 use crate::json::{
@@ -9,6 +10,7 @@ use crate::json::{
 };
 use crate::rejection::{Checked, Failure};
 use base_lines::{BaseLines, BaseLinesClaim};
+use own_frame::{OwnFrame, OwnFrameClaim};
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{Deserializer, Error, IntoDeserializer, MapAccess, SeqAccess, Visitor};
 use solutions::Solutions;
@@ -33,11 +35,13 @@ objects! {
         claim: Claims, bodies: Vec<Body>,
         rigid: Members, pieces: Vec<Piece>, solutions: Optional<Solutions>,
         parts: Optional<Vec<Vec<u32>>>, base_lines: Optional<BaseLines>,
+        own_frame: Optional<OwnFrame>,
     }
     GraphName { name: String, nodes: usize, edges: usize, sha256: String, graph6: Option<String> }
     Claims {
         verdict: VerdictClaim, rank: RankClaim, components: ComponentsClaim,
         solutions: Optional<SolutionsClaim>, base_lines: Optional<BaseLinesClaim>,
+        own_frame: Optional<OwnFrameClaim>,
     }
     VerdictClaim { value: String, strength: String, error_log2: Option<i64> }
     RankClaim { value: i64, required: i64, strength: String, error_log2: Option<i64> }

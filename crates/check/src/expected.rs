@@ -111,6 +111,11 @@ impl Expected {
                     let what = format!("displacements are supposed to be known: {known}");
                     see(true, what);
                 }
+                if let Some(found) = &verified.own_frame {
+                    let hash = &found.sha256;
+                    let what = "displacements are supposed to be known in a frame of their own";
+                    see(true, format!("{what}: SHA-256 {hash}"));
+                }
                 if let Some(found) = &verified.base_lines {
                     let hash = &found.sha256;
                     see(

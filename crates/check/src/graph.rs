@@ -20,6 +20,8 @@ pub struct Graph {
     pub(crate) parts: Vec<Vec<u32>>,
     /// The hash of the displacements that are known, if there are any.
     pub(crate) displacements: Option<String>,
+    /// The hash of those in a frame of their own.
+    pub(crate) own_frame: Option<String>,
     /// The hash of the frames of unknown base lines, if there are any.
     pub(crate) frames: Option<String>,
     /// Whether a certificate may suppose besides what it states.
@@ -57,6 +59,7 @@ impl Graph {
             start,
             parts: Vec::new(),
             displacements: None,
+            own_frame: None,
             frames: None,
             as_stated: false,
         })
@@ -66,6 +69,13 @@ impl Graph {
     /// specification; lower-case hexadecimal digits), in the place of those it has.
     pub fn with_displacements(mut self, sha256: impl Into<String>) -> Graph {
         self.displacements = Some(sha256.into());
+        self
+    }
+
+    /// The same graph with displacements in a frame of their own, which their hash names (section 16 of the
+    /// specification; lower-case hexadecimal digits).
+    pub fn with_own_frame(mut self, sha256: impl Into<String>) -> Graph {
+        self.own_frame = Some(sha256.into());
         self
     }
 

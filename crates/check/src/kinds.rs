@@ -135,6 +135,10 @@ impl AnyVerified {
                 (verified.parts > 0, "known parts"),
                 (verified.displacements.is_some(), "known displacements"),
                 (verified.base_lines.is_some(), "frames of rigs"),
+                (
+                    verified.own_frame.is_some(),
+                    "known displacements in a frame of their own",
+                ),
             ]
             .into_iter()
             .filter_map(|(is, what)| is.then_some(what))

@@ -26,6 +26,7 @@
 //! | classes, rigid or split again | 7 | 6.3, 6.5 | `evidence` |
 //! | motions tell classes apart | 7, 9 | 6.4, 6.7, 6.8, 13.13, 13.19 | `kernel` |
 //! | unknown base lines | 13 | 13.26, 13.27 | `base_lines`, with `frames` and `matrix` |
+//! | a frame of its own | 16 | 13.29 to 13.31 | `own_frame` |
 //! | the number of solutions | 12 | 10.2 to 10.17 | `solutions`, a file for each kind |
 //! | what is determined at given cameras | 14 | 16.1 to 16.4 | `here`, all of it |
 //! | what is determined of intrinsics | 15 | 17.3, 17.6 to 17.9 | `intrinsics`, all of it |
@@ -61,6 +62,7 @@ mod kinds;
 mod limits;
 mod lower;
 mod matrices;
+mod own_frame;
 mod parts;
 mod pivots;
 mod plane_flow;
@@ -83,6 +85,7 @@ pub use here::{HereCertificate, VerifiedHere};
 pub use intrinsics::{IntrinsicsCertificate, VerifiedIntrinsics};
 pub use kinds::{AnyCertificate, AnyVerified};
 pub use limits::Limits;
+pub use own_frame::OwnFrame;
 pub use rejection::{Failure, Rejection, TooLarge, Unreadable};
 pub use solutions::Count;
 
@@ -179,6 +182,11 @@ impl Certificate {
             let agree = displacements::check_given(known.as_ref(), given);
             agree.within(|| "displacements".into())?;
         }
+        let own_frame = own_frame::Supposed::new(document, graph.nodes());
+        let own_frame = own_frame.within(|| "own_frame".into())?;
+        if own_frame.is_none() {
+            own_frame::check_none(given).within(|| "own_frame".into())?;
+        }
         let from_start = bodies::Known {
             parts,
             groups: groups.unwrap_or_default(),
@@ -187,6 +195,7 @@ impl Certificate {
             model,
             sha256,
             vectors: vectors.as_ref(),
+            own_frame: own_frame.as_ref().and_then(|own| own.vectors.as_ref()),
             meter,
         };
         let bodies = (from_start, &document.bodies[..]);
@@ -212,7 +221,13 @@ impl Certificate {
         let verified = claim::verify(&document.claim, name, (model, known), found, joined);
         let verified = verified.within(|| "claim".into())?;
         let base_lines = base_lines::check(document, structure, given);
+        let claim = document.claim.own_frame.0.as_ref();
+        let own_frame = own_frame.as_ref().zip(claim).map(|(own_frame, claim)| {
+            let found = own_frame.check(claim, structure, (graph.nodes(), given));
+            found.within(|| "own_frame".into())
+        });
         Ok(Verified {
+            own_frame: own_frame.transpose()?,
             parts: parts.len(),
             base_lines: base_lines.within(|| "base_lines".into())?,
             ..verified

@@ -24,6 +24,8 @@ pub(crate) struct Setting<'a> {
     pub sha256: [u8; 32],
     /// Where given displacements put nodes.
     pub vectors: Option<&'a Vectors>,
+    /// The same of displacements in a frame of their own.
+    pub own_frame: Option<&'a Vectors>,
     pub meter: &'a Meter,
 }
 
@@ -31,8 +33,10 @@ impl Setting<'_> {
     /// Whether nodes that merge are independent (section 3), as all are in general position.
     pub(crate) fn check_independent(&self, nodes: &[u32]) -> Checked<()> {
         ensure!(
-            self.vectors
-                .is_none_or(|known| known.are_independent(nodes)),
+            [self.vectors, self.own_frame]
+                .into_iter()
+                .flatten()
+                .all(|known| known.are_independent(nodes)),
             "the given vectors do not show that the nodes {nodes:?} are independent"
         );
         Ok(())

@@ -29,6 +29,24 @@ pub(crate) fn check_vectors(
 ) -> Checked<Vectors> {
     ensure!(groups.is_some(), "there are no displacements");
     let groups = groups.unwrap_or_default();
+    for (k, list) in vectors.iter().enumerate() {
+        let mut places: Vec<Vector> = list.iter().map(|[x, y, z]| [x.0, y.0, z.0]).collect();
+        places.push([0; 3]);
+        places.sort_unstable();
+        ensure!(
+            places.windows(2).all(|pair| pair[0] != pair[1]),
+            "group {k}: two nodes are at one place"
+        );
+    }
+    check_places(vectors, groups, nodes)
+}
+
+/// The same where two nodes may be at one place.
+pub(crate) fn check_places(
+    vectors: &[Vec<[Big<i128>; 3]>],
+    groups: &[Vec<u32>],
+    nodes: usize,
+) -> Checked<Vectors> {
     ensure!(
         vectors.len() == groups.len(),
         "there is not one list for each group"
@@ -49,14 +67,13 @@ pub(crate) fn check_vectors(
         }
     }
     ensure!(
-        unit == 1,
+        unit == 1 || unit == 0,
         "all coordinates have the common divisor {unit}, not 1"
     );
     Ok(known)
 }
 
-/// Sees that the vectors of a group are as many as they should be, short, and lead to different
-/// places.
+/// Sees that the vectors of a group are as many as they should be, and short.
 fn check_group(group: &[u32], list: &[Vector]) -> Checked<()> {
     ensure!(
         list.len() + 1 == group.len(),
@@ -67,13 +84,6 @@ fn check_group(group: &[u32], list: &[Vector]) -> Checked<()> {
     ensure!(
         list.iter().flatten().all(is_short),
         "a coordinate has more than 30 digits"
-    );
-    let mut places = list.to_vec();
-    places.push([0; 3]);
-    places.sort_unstable();
-    ensure!(
-        places.windows(2).all(|pair| pair[0] != pair[1]),
-        "two nodes are at one place"
     );
     Ok(())
 }
@@ -98,7 +108,7 @@ impl Vectors {
     }
 
     /// The vector from one node to another one of its group, both below 10^30.
-    fn between(&self, from: u32, to: u32) -> Vector {
+    pub(crate) fn between(&self, from: u32, to: u32) -> Vector {
         let [from, to] = [from, to].map(|node| self.from_vertex[node as usize]);
         [0, 1, 2].map(|k| to[k] - from[k])
     }

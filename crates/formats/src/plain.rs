@@ -7,6 +7,7 @@ use crate::edge_list::table::OWN;
 use std::fmt::Write;
 use viewcert::Known;
 use viewcert::certificate::hex;
+use viewcert::graph::Displacements;
 
 /// A graph as pairs, below a comment by which [`read_graphs`](crate::read_graphs) knows them: first what its
 /// nodes are called, if not by their numbers. O(n + m).
@@ -49,9 +50,18 @@ pub fn lines_of(known: &Known) -> String {
         let nodes: Vec<String> = part.iter().map(u32::to_string).collect();
         format!("part {}\n", nodes.join(" "))
     };
+    let displacements = |known: &Displacements| format!("displacements {}\n", hex(&known.sha256()));
     match known {
         Known::Parts(parts) => parts.iter().map(line).collect(),
-        Known::Displacements(known) => format!("displacements {}\n", hex(&known.sha256())),
+        Known::Displacements(known) => displacements(known),
+        Known::OwnFrame { given, rigs } => {
+            let rigs = Some(displacements(rigs)).filter(|_| !rigs.is_empty());
+            format!(
+                "{}own-frame {}\n",
+                rigs.unwrap_or_default(),
+                hex(&given.sha256())
+            )
+        }
     }
 }
 

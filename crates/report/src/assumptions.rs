@@ -4,6 +4,7 @@
 
 use crate::condition;
 use crate::intrinsics::IntrinsicsLine;
+use crate::own_frame::{self, OwnFrameLine};
 use serde::Serialize;
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -335,6 +336,7 @@ pub struct Scope {
     needs_turns: bool,
     focal: bool,
     base_lines: Option<(BaseLines, SharedBaseLines)>,
+    own_frame: Option<OwnFrameLine>,
     intrinsics: Option<IntrinsicsLine>,
 }
 
@@ -356,6 +358,7 @@ impl Scope {
             && verdict.model != Model::Affine
             && input.cameras.is_none()
             && verdict.displacements.is_empty()
+            && verdict.own_frame.is_none()
             && input.graph.edges().len() <= UNASKED
             && !is_rigid_by_triangles(verdict);
         let planar = (asked.planar || may_hide)
@@ -403,6 +406,9 @@ impl Scope {
         if base_lines.is_some() {
             conditions.push(BASE_LINES.to_owned());
         }
+        if verdict.own_frame.is_some() {
+            conditions.push(own_frame::CONDITION.to_owned());
+        }
         if hidden {
             let condition = "holds for centres in general position; if all lie in one plane: not";
             conditions.push(condition.to_owned());
@@ -423,6 +429,7 @@ impl Scope {
             focal: asked.focal,
             planar: planar.filter(|planar| asked.planar || !planar.is_determined()),
             base_lines,
+            own_frame: OwnFrameLine::new(input, verdict),
             intrinsics: None,
         })
     }
@@ -475,6 +482,11 @@ impl Scope {
     /// What base lines that are not known determine, if there are any and they are needed.
     pub fn base_lines(&self) -> Option<&BaseLines> {
         self.base_lines.as_ref().map(|(found, _)| found)
+    }
+
+    /// What is given in a frame of its own, and what it adds.
+    pub fn own_frame(&self) -> Option<&OwnFrameLine> {
+        self.own_frame.as_ref()
     }
 
     /// The same with its evidence, for a certificate.

@@ -9,6 +9,7 @@ use super::{Report, WrittenProof};
 use crate::assumptions::{BaseLines, Planar, Scope};
 use crate::here::HereLine;
 use crate::intrinsics::IntrinsicsLine;
+use crate::own_frame::OwnFrameLine;
 use serde::Serialize;
 use std::io::{self, Write};
 use viewcert::certificate::hex;
@@ -76,6 +77,11 @@ struct Line<'a> {
     model: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     displacements: Option<DisplacementLine>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    own_frame: Option<&'a OwnFrameLine>,
+    /// What is determined without what has a frame of its own, if that is given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    measured: Option<MeasuredLine>,
     #[serde(flatten)]
     answer: AnswerLine,
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
@@ -155,6 +161,15 @@ impl DisplacementLine {
     }
 }
 
+/// What pairs and rigs determine by themselves.
+#[derive(Serialize)]
+struct MeasuredLine {
+    verdict: &'static str,
+    strength: &'static str,
+    rank: usize,
+    rank_required: usize,
+}
+
 /// What is decided, and how strong it is.
 #[derive(Serialize)]
 pub(super) struct AnswerLine {
@@ -184,7 +199,7 @@ impl AnswerLine {
         are_listed: bool,
     ) -> Self {
         let strength = verdict.value_claim().strength;
-        Self {
+        let line = Self {
             verdict: verdict.value.name(),
             condition: text::condition(input, verdict, scope),
             strength: strength.name(),
@@ -197,6 +212,25 @@ impl AnswerLine {
             components: components(input, verdict, are_listed),
             components_strength: verdict.components_claim().strength.name(),
             prime: verdict.prime(),
+        };
+        let Some(found) = scope.own_frame() else {
+            return line;
+        };
+        let (rank, rank_required) = found.ranks();
+        Self {
+            verdict: found.name(),
+            condition: text::promised(input, verdict, scope).filter(|_| found.is_good()),
+            strength: if found.name() == "open" {
+                "none"
+            } else {
+                "proof"
+            },
+            error_log2: None,
+            because: found.because().to_owned(),
+            solutions: None,
+            rank,
+            rank_required,
+            ..line
         }
     }
 }
@@ -284,6 +318,13 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
             .map(|(cameras, facts)| TrackLine::new(cameras, facts)),
         model: verdict.model.name(),
         displacements: DisplacementLine::new(verdict),
+        own_frame: report.scope.own_frame(),
+        measured: report.scope.own_frame().map(|_| MeasuredLine {
+            verdict: verdict.value.name(),
+            strength: verdict.value_claim().strength.name(),
+            rank: verdict.rank,
+            rank_required: verdict.required,
+        }),
         answer: AnswerLine::from(report),
         conditions: report.scope.conditions(),
         planar: report.scope.planar(),

@@ -23,6 +23,7 @@ pub mod next;
 mod noticed;
 pub mod overview;
 pub mod overview_page;
+pub mod own_frame;
 mod page;
 mod part_names;
 pub mod priors;

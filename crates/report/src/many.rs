@@ -102,7 +102,7 @@ impl Table {
     pub fn row(&mut self, out: &mut impl Write, report: &Report) -> io::Result<()> {
         let (graph, verdict) = (&report.input.graph, report.verdict);
         let (nodes, edges) = (graph.nodes(), graph.edges().len());
-        let words = verdict.value.name();
+        let words = verdict.answer_name();
         let components = verdict.components.len();
         let strength = strength(verdict.value_claim().strength);
         let percent = density(nodes, edges);
@@ -160,7 +160,7 @@ impl Table {
         self.components += components;
         self.time += report.time;
         for (count, known) in self.counts.iter_mut().zip(Value::ALL) {
-            *count += usize::from(verdict.value == known);
+            *count += usize::from(verdict.answer() == Some(known));
         }
         Ok(())
     }

@@ -32,6 +32,9 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
     for note in &input.notes {
         writeln!(out, "  note        {note}")?;
     }
+    if let Some(own_frame) = report.scope.own_frame() {
+        writeln!(out, "  known       {}", own_frame.known())?;
+    }
     if !verdict.displacements.is_empty() {
         let known = &verdict.displacements;
         writeln!(
@@ -43,11 +46,16 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
         )?;
     }
     writeln!(out, "  verdict     {}", answer(report))?;
-    writeln!(
-        out,
-        "  because     {}",
-        because(input, verdict, report.scope)
-    )?;
+    if let Some(own_frame) = report.scope.own_frame() {
+        writeln!(out, "  because     {}", own_frame.because())?;
+        writeln!(out, "  with given  {}", own_frame.count(input))?;
+        let (rank, required) = (verdict.rank, verdict.required);
+        let measured = measured(report);
+        writeln!(out, "  measured    {measured}, rank {rank} of {required}")?;
+    } else {
+        let because = because(input, verdict, report.scope);
+        writeln!(out, "  because     {because}")?;
+    }
     let of_components = verdict.components.iter().map(|one| &one.solutions);
     let mut counts = of_components.chain([&verdict.solutions]).flatten();
     if counts.any(|count| count.full_may_tell_more) {
@@ -66,13 +74,16 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
     if let Some(intrinsics) = report.scope.intrinsics() {
         intrinsics.write(out)?;
     }
-    writeln!(
-        out,
-        "  rank        {} of {} ({})",
-        verdict.rank,
-        verdict.required,
-        strength(verdict.rank_claim().strength)
-    )?;
+    match report.scope.own_frame() {
+        Some(own_frame) => writeln!(out, "  rank        {}", own_frame.rank_words())?,
+        None => writeln!(
+            out,
+            "  rank        {} of {} ({})",
+            verdict.rank,
+            verdict.required,
+            strength(verdict.rank_claim().strength)
+        )?,
+    }
     write_components(out, report)?;
     if let Some(here) = &report.here {
         here.write_text(out, report.list_components)?;
@@ -110,6 +121,17 @@ pub(super) fn write_components(out: &mut impl Write, report: &Report) -> io::Res
 
 /// The verdict and how strong it is.
 pub(super) fn answer(report: &Report) -> String {
+    match report.scope.own_frame() {
+        Some(own_frame) => {
+            let condition = promised(report.input, report.verdict, report.scope);
+            own_frame.words(report.input, condition)
+        }
+        None => measured(report),
+    }
+}
+
+/// The verdict on pairs and rigs, and how strong it is.
+fn measured(report: &Report) -> String {
     let verdict = report.verdict;
     let known = verdict.solutions.as_ref();
     let known = known.filter(|count| count.at_least > 1 || count.at_most.is_some());
@@ -137,14 +159,18 @@ pub(super) fn answer(report: &Report) -> String {
 /// What a good answer rests on.
 pub(super) fn condition(input: &NamedGraph, verdict: &Verdict, scope: &Scope) -> Option<String> {
     let is_good = verdict.value != Value::NotFiniteSolvable;
+    promised(input, verdict, scope).filter(|_| is_good)
+}
+
+/// What an answer rests on if it is good.
+pub(super) fn promised(input: &NamedGraph, verdict: &Verdict, scope: &Scope) -> Option<String> {
     // Pairs fix focal lengths then, and no mapper finds them.
     let model = if scope.asks_focal() {
         Model::Projective
     } else {
         verdict.model
     };
-    let condition = scope.promise(condition::of_photographs(input, model));
-    condition.filter(|_| is_good)
+    scope.promise(condition::of_photographs(input, model))
 }
 
 /// What the answer rests on, in a line.

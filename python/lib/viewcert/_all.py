@@ -137,7 +137,7 @@ def verify_all(
                     memory_limit=memory,
                     progress=callback,
                 )
-                kept = {"wanted": question, "parts": None, "displacements": None, "vectors": None}
+                kept = {"wanted": question, "parts": None, "displacements": None, "vectors": None, "one_frame": False}
                 for (place, given), native in zip(given_all, decided):
                     if isinstance(native, Exception):
                         found[place] = native

@@ -48,6 +48,8 @@ class Verified:
         Between how many sets of nodes displacements are taken for given.
     base_lines : str, optional
         What frames add where base lines are unknown.
+    own_frame : str, optional
+        What is determined beside displacements in a frame of their own; all else is without them.
     model : str
         The question.
     text : str
@@ -66,6 +68,7 @@ class Verified:
     parts: int
     displacements: int
     base_lines: Optional[BaseLinesValue]
+    own_frame: Optional[Value]
     model: Decided
     text: str = field(repr=False)
 
@@ -117,6 +120,7 @@ def check(
     displacements: Union[
         Mapping[Tuple[Any, Any], Sequence[Number]], Iterable[Iterable[Node]], None
     ] = None,
+    one_frame: bool = False,
     model: Optional[str] = None,
     max_operations: Optional[int] = None,
 ) -> Verified:
@@ -135,6 +139,8 @@ def check(
     displacements : iterable of iterables of nodes, optional
         The sets of nodes whose displacements it takes for given, in the same way; or their vectors,
         as for `verify`.
+    one_frame : bool
+        Whether these are in the frame of the directions, as for `verify` (of a verdict its own).
     model : {'projective', 'calibrated', 'affine'}, optional
         The model it is about (of a verdict its own); if a graph is given and no model, projective.
     max_operations : int, optional
@@ -180,6 +186,7 @@ def check(
         parts = certificate.parts if parts is None else parts
         if displacements is None:
             displacements = certificate.vectors or certificate.displacements
+            one_frame = not certificate._native.has_own_frame
     max_operations = whole_if("max_operations", max_operations, 0, 2**64 - 1)
     stated = {"parts": parts, "displacements": displacements}
     for what in (what for what, sets in stated.items() if sets is not None):
@@ -200,6 +207,7 @@ def check(
         parts=known,
         displacements=groups,
         vectors=coordinates(displacements),
+        one_frame=one_frame,
         max_operations=max_operations,
     )
     return _of_model(model, of_native(Verified, found))

@@ -38,6 +38,9 @@ class Kept:
         return {
             "model": found.model,
             "value": found.value,
+            "measured": found.measured,
+            "has_own_frame": found.has_own_frame,
+            "only_given": found.only_given(),
             "rank": found.rank,
             "required": found.required,
             "seconds": found.seconds,
@@ -76,6 +79,18 @@ class Kept:
     def value(self) -> Value:
         value: Value = self._said["value"]
         return value
+
+    @property
+    def measured(self) -> Value:
+        value: Value = self._said["measured"]
+        return value
+
+    @property
+    def has_own_frame(self) -> bool:
+        return bool(self._said["has_own_frame"])
+
+    def only_given(self) -> List[int]:
+        return list(self._said["only_given"])
 
     @property
     def rank(self) -> int:

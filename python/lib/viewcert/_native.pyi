@@ -122,6 +122,11 @@ class Decided:
     @property
     def value(self) -> Value: ...
     @property
+    def measured(self) -> Value: ...
+    @property
+    def has_own_frame(self) -> bool: ...
+    def only_given(self) -> list[int]: ...
+    @property
     def rank(self) -> int: ...
     @property
     def required(self) -> int: ...
@@ -165,6 +170,7 @@ def decide(
     parts: list[list[int]] | None = None,
     displacements: list[list[int]] | None = None,
     vectors: list[tuple[str, str, str]] | None = None,
+    one_frame: bool = False,
     time_limit: float | None = None,
     memory_limit: int | None = None,
     progress: Callable[[str, int, int], object] | None = None,
@@ -205,6 +211,8 @@ class Verified:
     @property
     def base_lines(self) -> BaseLinesValue | None: ...
     @property
+    def own_frame(self) -> Value | None: ...
+    @property
     def model(self) -> DecidedModel: ...
     @property
     def text(self) -> str: ...
@@ -216,6 +224,7 @@ def check(
     parts: list[list[int]] | None = None,
     displacements: list[list[int]] | None = None,
     vectors: list[tuple[str, str, str]] | None = None,
+    one_frame: bool = False,
     file: str | os.PathLike[str] | None = None,
     max_operations: int | None = None,
 ) -> Verified: ...

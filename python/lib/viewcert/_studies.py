@@ -355,6 +355,6 @@ def _ruled(
         number, asked, graph=None if given is None else given._native, folder=folder
     )
     found = json.loads(said[0])
-    question = {"wanted": {**asked, "model": decided.model}, "parts": None, "displacements": None, "vectors": None}
+    question = {"wanted": {**asked, "model": decided.model}, "parts": None, "displacements": None, "vectors": None, "one_frame": False}
     verdict = Verdict._of(Graph._of(native) if given is None else given, decided, question)
     return Ruling(*said, number + 1, found["ruling"], found["reason"], verdict)

@@ -17,7 +17,7 @@ Model = Literal["projective", "calibrated", "affine", "focal"]
 Decided = Literal["projective", "calibrated", "affine"]
 
 #: The answer.
-Value = Literal["solvable", "finite-solvable", "not-finite-solvable"]
+Value = Literal["solvable", "finite-solvable", "not-finite-solvable", "open"]
 
 #: How strong an answer is.
 Strength = Literal["proof", "error-bound"]

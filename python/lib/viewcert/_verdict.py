@@ -310,6 +310,19 @@ class Verdict(Generic[N]):
         }
 
     @property
+    def measured(self) -> Value:
+        """The answer of pairs and rigs alone: another one than `value` where displacements have a frame of their
+        own."""
+        return self._native.measured
+
+    @property
+    def only_given(self) -> List[N]:
+        """The nodes of which a displacement in a frame of its own is given and nothing else: no pair, no rig.
+        Nothing measures them."""
+        nodes = self._graph.nodes
+        return [nodes[number] for number in self._native.only_given()]
+
+    @property
     def model(self) -> DecidedModel:
         """The question: ``'projective'``, ``'calibrated'`` or ``'affine'``. What was asked as
         ``'focal'`` is decided as calibrated, see `conditions`."""
@@ -738,6 +751,7 @@ def verify(
     *,
     parts: Optional[Iterable[Iterable[N]]] = ...,
     displacements: Union[Mapping[Tuple[N, N], Sequence[Number]], Iterable[Iterable[N]], None] = ...,
+    one_frame: bool = ...,
     name: Optional[str] = ...,
     **asked: Unpack[Asked],
 ) -> Verdict[N]: ...
@@ -747,6 +761,7 @@ def verify(
     *,
     parts: Optional[Iterable[Iterable[Any]]] = ...,
     displacements: Union[Mapping[Tuple[Any, Any], Sequence[Number]], Iterable[Iterable[Any]], None] = ...,
+    one_frame: bool = ...,
     name: Optional[str] = ...,
     **asked: Unpack[Asked],
 ) -> Verdict[Any]: ...
@@ -767,6 +782,7 @@ def verify(
     displacements: Union[
         Mapping[Tuple[Any, Any], Sequence[Number]], Iterable[Iterable[Node]], None
     ] = None,
+    one_frame: bool = False,
     name: Optional[str] = None,
     time_limit: Optional[float] = None,
     memory_limit: Optional[int] = None,
@@ -812,9 +828,13 @@ def verify(
         together with `parts`. Sets with a node in common are one. The scale is determined as well.
         The certificate states them; see `Verdict.conditions`. The answer holds for vectors in
         general position. A mapping from pairs ``(a, b)`` to three numbers each gives the vectors
-        from a to b themselves, in the frame of the directions, and the answer is about these:
+        from a to b themselves, and the answer is about these:
         integers, fractions, decimals or text, taken exactly, floats as they are printed. Vectors
-        that contradict each other are an error.
+        that contradict each other are an error. They have a frame of their own: the rotation of each
+        part of the graph against it is unknown, see `Verdict.measured`.
+    one_frame : bool
+        Whether `displacements` are vectors in the frame of the directions: all rotations are known in
+        it.
     name : str, optional
         What reports and certificates call the graph.
     time_limit : float, optional
@@ -852,7 +872,7 @@ def verify(
     >>> rig.value, rig.parts
     ('solvable', [frozenset({0, 1, 2})])
     >>> pairs, rigs = [(0, 2), (0, 3), (1, 2)], [(0, 1), (2, 3)]
-    >>> viewcert.verify(pairs, model="calibrated", displacements=rigs).value
+    >>> viewcert.verify(pairs, model="calibrated", displacements=rigs, one_frame=True).value
     'solvable'
     """
     given = as_graph(graph, name)
@@ -883,7 +903,9 @@ def verify(
             raise InputError(f"displacements: not with {other}; leave out one of the two")
     seconds, memory = limits(time_limit, memory_limit)
     vectors = coordinates(displacements)
-    question = {"wanted": asked, "parts": known, "displacements": groups, "vectors": vectors}
+    if one_frame and not groups:
+        raise InputError("one_frame: no displacements are given that could have another frame; leave it out")
+    question = {"wanted": asked, "parts": known, "displacements": groups, "vectors": vectors, "one_frame": one_frame}
     with shown(progress) as callback:
         native = _native.decide(
             given._native,
@@ -891,6 +913,7 @@ def verify(
             parts=known,
             displacements=groups,
             vectors=vectors,
+            one_frame=one_frame,
             time_limit=seconds,
             memory_limit=memory,
             progress=callback,

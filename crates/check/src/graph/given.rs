@@ -41,7 +41,10 @@ impl Graph {
 
     /// Refuses what is given beside a graph, for kinds of certificates that suppose no such thing.
     pub(crate) fn ensure_bare(given: Option<&Graph>) -> Checked<()> {
-        let is_bare = |graph: &Graph| graph.parts.is_empty() && graph.displacements.is_none();
+        let is_bare = |graph: &Graph| {
+            let none = graph.displacements.is_none() && graph.own_frame.is_none();
+            graph.parts.is_empty() && none
+        };
         ensure!(
             given.is_none_or(is_bare),
             "known parts or displacements are given, and such a certificate supposes none"
@@ -61,8 +64,10 @@ impl Graph {
         };
         let last = lines.pop_if(|(_, line)| line.starts_with(FRAMES));
         let frames = last.map(|line| hash_of(line, FRAMES)).transpose()?;
+        let last = lines.pop_if(|(_, line)| line.starts_with(OWN_FRAME));
+        let own_frame = last.map(|line| hash_of(line, OWN_FRAME)).transpose()?;
         let graph = match lines[..] {
-            [] if frames.is_some() => self,
+            [] if frames.is_some() || own_frame.is_some() => self,
             [line, ..] if line.1.starts_with(DISPLACEMENTS) => {
                 let hash = hash_of(line, DISPLACEMENTS)?;
                 ensure!(
@@ -72,6 +77,10 @@ impl Graph {
                 self.with_displacements(hash)
             }
             _ => self.with_parts_of(lines.into_iter())?,
+        };
+        let graph = match own_frame {
+            Some(hash) => graph.with_own_frame(hash),
+            None => graph,
         };
         Ok(match frames {
             Some(hash) => graph.with_frames(hash),
@@ -124,12 +133,13 @@ const DISPLACEMENTS: &[u8] = b"displacements";
 
 const FRAMES: &[u8] = b"frames";
 
-const HASH: &str =
-    "behind `displacements` stands a hash, 64 hexadecimal digits (as behind `frames`)";
+const OWN_FRAME: &[u8] = b"own-frame";
+
+const HASH: &str = "behind `displacements` stands a hash, 64 hexadecimal digits (as behind `own-frame` and `frames`)";
 
 const PARTS: &str = "a line is `part` and two node numbers or more, with a single blank or tab before \
-                     each, or else `displacements` or, last, `frames` and a hash (see `verify convert \
-                     --to given`)";
+                     each, or else `displacements`, `own-frame` or, last, `frames` and a hash (see `verify \
+                     convert --to given`)";
 
 #[cfg(test)]
 mod tests;

@@ -61,6 +61,7 @@ impl HereCertificate {
             model: document.model,
             sha256,
             vectors: None,
+            own_frame: None,
             meter,
         };
         let known = Known {

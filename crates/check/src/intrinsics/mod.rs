@@ -115,6 +115,7 @@ impl IntrinsicsCertificate {
             model: Model::Projective,
             sha256,
             vectors: None,
+            own_frame: None,
             meter: &Meter::new(limits),
         };
         let known = Known {

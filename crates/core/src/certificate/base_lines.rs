@@ -71,7 +71,7 @@ impl<'a> From<&'a SharedBaseLines> for BaseLinesView<'a> {
 }
 
 /// Pivots, and where they were found.
-struct At<'a>(&'a (ModularDraw, Pivots));
+pub(super) struct At<'a>(pub(super) &'a (ModularDraw, Pivots));
 
 written! {
     At<'_>: |own| {

@@ -6,6 +6,7 @@ mod intrinsics;
 use super::EMBED_NODES;
 use super::base_lines::{BaseLinesView, ClaimedBaseLines};
 use super::objects::{Big, bigs, object, objects, written};
+use super::own_frame::{ClaimedOwnFrame, OwnFrameView};
 use super::solutions::{self, ClaimedSolutions, ForeignSolutions, SolutionsView};
 use crate::contract::piece::Members;
 use crate::contract::{Body, Merge, Part, Seed};
@@ -26,7 +27,7 @@ objects! {
         bodies: Vec<BodyView<'a>>,
         rigid: &'a Members,
         pieces: &'a [PieceVerdict],
-        ; optional displacements: &'a [Vec<u32>], vectors: Vec<Vec<[Big<i128>; 3]>>, solutions: SolutionsView<'a>, parts: Vec<&'a [u32]>, base_lines: BaseLinesView<'a>
+        ; optional displacements: &'a [Vec<u32>], vectors: Vec<Vec<[Big<i128>; 3]>>, solutions: SolutionsView<'a>, parts: Vec<&'a [u32]>, base_lines: BaseLinesView<'a>, own_frame: OwnFrameView<'a>
     }
 
     GraphView<'a> {
@@ -41,7 +42,7 @@ objects! {
         verdict: Valued<&'static str>,
         rank: Rank,
         components: Valued<usize>,
-        ; optional solutions: ClaimedSolutions, base_lines: ClaimedBaseLines
+        ; optional solutions: ClaimedSolutions, base_lines: ClaimedBaseLines, own_frame: ClaimedOwnFrame
     }
 
     Valued<T> {
@@ -72,6 +73,12 @@ objects! {
         rigid: &'a Members,
         pieces: &'a [P],
     }
+}
+
+/// Vectors of groups.
+pub(super) fn vectors(groups: &[Vec<[i128; 3]>]) -> Vec<Vec<[Big<i128>; 3]>> {
+    let vectors = |group: &Vec<[i128; 3]>| group.iter().map(|v| v.map(Big)).collect();
+    groups.iter().map(vectors).collect()
 }
 
 impl<'a> GraphView<'a> {
@@ -125,6 +132,7 @@ impl<'a> Document<'a> {
                 components: Valued::new(components, <[_]>::len),
                 solutions: claimed,
                 base_lines: base_lines.map(ClaimedBaseLines::from),
+                own_frame: verdict.own_frame.as_ref().map(ClaimedOwnFrame::from),
             },
             bodies: verdict
                 .contraction
@@ -135,12 +143,10 @@ impl<'a> Document<'a> {
             rigid: &verdict.rigid,
             pieces: &verdict.pieces,
             displacements: Some(verdict.displacements.groups()).filter(|groups| !groups.is_empty()),
-            vectors: verdict.displacements.vectors().map(|groups| {
-                let vectors = |group: &Vec<[i128; 3]>| group.iter().map(|v| v.map(Big)).collect();
-                groups.iter().map(vectors).collect()
-            }),
+            vectors: verdict.displacements.vectors().map(vectors),
             solutions: evidence,
             base_lines: base_lines.map(BaseLinesView::from),
+            own_frame: verdict.own_frame.as_ref().map(OwnFrameView::from),
             parts: (!verdict.known_parts.is_empty()).then(|| verdict.known_parts.iter().collect()),
         })
     }

@@ -8,6 +8,7 @@ mod base_lines;
 mod document;
 mod lines;
 mod objects;
+mod own_frame;
 mod solutions;
 
 pub use document::hex;

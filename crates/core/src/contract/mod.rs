@@ -80,10 +80,15 @@ impl Contraction {
     /// Contracts a graph of the calibrated model with known displacements, whose groups are bodies
     /// from the start (Theorem 13.16). The cost is that of [`new`](Self::new), once more for each
     /// round in which scaled bodies that share a node make further merges possible. If vectors are
-    /// given, what merges at three nodes or four is in general position all the same (Theorem 13.21).
-    pub fn with_displacements(graph: &Graph, known: &Displacements) -> Self {
+    /// given, what merges at three nodes or four is in general position all the same (Theorem 13.21): where
+    /// `placed` says where nodes are, which need not be known to the rules (Theorem 13.29).
+    pub fn with_displacements(
+        graph: &Graph,
+        known: &Displacements,
+        placed: &Displacements,
+    ) -> Self {
         let groups = known.groups().iter().map(Vec::as_slice);
-        let general = General(Placed::new(graph.nodes(), known).map(Arc::new));
+        let general = General(Placed::new(graph.nodes(), placed).map(Arc::new));
         Self::by_cycles(Given::new(graph, groups, true), &general)
     }
 

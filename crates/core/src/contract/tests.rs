@@ -294,7 +294,7 @@ fn check_with(graph: &Graph, known: &KnownParts, model: Model) {
 }
 
 fn check_with_displacements(graph: &Graph, known: &Displacements) {
-    let contraction = Contraction::with_displacements(graph, known);
+    let contraction = Contraction::with_displacements(graph, known, known);
     let finals = replay(graph, Known::Displacements(known), &contraction);
     let mut parts: BTreeSet<Nodes> = finals.iter().cloned().collect();
     parts.extend(contraction.loose.iter().map(|&(i, j)| Nodes::from([i, j])));

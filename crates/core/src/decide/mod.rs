@@ -38,6 +38,7 @@ pub(crate) mod motion_class;
 mod noticed;
 mod one_piece;
 mod options;
+mod own_frame;
 mod plane_piece;
 mod question;
 mod solution_count;
@@ -56,6 +57,8 @@ pub use error::VerdictError;
 pub use evidence::{Block, Counting, Hub};
 pub use noticed::{Closure, Groups, closure, groups};
 pub use options::{Options, Prime};
+pub(crate) use own_frame::OwnFrameEvidence;
+pub use own_frame::{OwnFrame, TurningPart};
 pub use plane_piece::{plane_rank, plane_rank_with_parts};
 pub use question::{Arithmetic, CountSolutions, Known, Meaningless, Question};
 pub use solution_count::SolutionCount;
@@ -95,9 +98,10 @@ pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError>
     let contract = || match known {
         _ if *whole_graph => Contraction::none(graph),
         Known::Displacements(known) if !known.is_empty() => {
-            Contraction::with_displacements(graph, known)
+            Contraction::with_displacements(graph, known, known)
         }
         Known::Displacements(_) => Contraction::new(graph, *model),
+        Known::OwnFrame { given, rigs } => Contraction::with_displacements(graph, rigs, given),
         Known::Parts(parts) => Contraction::with_parts(graph, parts, *model),
     };
     let (contraction, sha256) = rayon::join(contract, || sha256(graph));
@@ -105,7 +109,7 @@ pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError>
     let (contraction, by_rank) = bodies_by_rank::extend(graph, contraction, &sha256, options)?;
     let placed = match known {
         Known::Displacements(known) => Placed::new(graph.nodes(), known),
-        Known::Parts(_) => None,
+        Known::Parts(_) | Known::OwnFrame { .. } => None,
     };
     let assembly = Assembly::new(graph, &contraction).with_vectors(&contraction, placed);
     let all = assembly.all();
@@ -119,6 +123,10 @@ pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError>
     } else {
         one_piece::decide_all(&assembly, &pieces, &sha256, options)?
     };
+    let own_frame = match known {
+        Known::OwnFrame { given, .. } if !given.is_empty() => Some(given.clone()),
+        _ => None,
+    };
     let (known_parts, displacements) = known.clone().split();
     let found = Found {
         graph,
@@ -130,7 +138,12 @@ pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError>
         rigid,
         pieces,
     };
-    Ok(found.conclude(sha256, contraction)?)
+    let mut verdict = found.conclude(sha256, contraction)?;
+    if let Some(given) = own_frame {
+        let found = OwnFrame::new(graph, &verdict, &given, options.seed, &options.watch)?;
+        verdict.own_frame = Some(found);
+    }
+    Ok(verdict)
 }
 
 /// Whether what is known is known of the nodes of the graph.
@@ -144,10 +157,17 @@ fn check_known(graph: &Graph, known: &Known) -> Result<(), VerdictError> {
             }),
             None => Ok(()),
         },
-        Known::Displacements(known) if known.groups().iter().flatten().any(outside) => {
-            Err(VerdictError::Displacements("the graph has fewer nodes"))
+        Known::Displacements(known) => match known.groups().iter().flatten().any(outside) {
+            true => Err(VerdictError::Displacements("the graph has fewer nodes")),
+            false => Ok(()),
+        },
+        Known::OwnFrame { given, rigs } => {
+            let mut groups = given.groups().iter().chain(rigs.groups());
+            match groups.any(|group| group.iter().any(outside)) {
+                true => Err(VerdictError::Displacements("the graph has fewer nodes")),
+                false => Ok(()),
+            }
         }
-        Known::Displacements(_) => Ok(()),
     }
 }
 
@@ -193,6 +213,7 @@ impl Found<'_> {
             model: self.model(),
             known_parts: self.known_parts.clone(),
             displacements: self.displacements.clone(),
+            own_frame: None,
             sha256,
             seed: self.options.seed,
             value: if is_one { Value::Solvable } else { value },

@@ -51,6 +51,14 @@ pub enum Known {
     Parts(KnownParts),
     /// Displacements between cameras (Theorems 13.16 to 13.20).
     Displacements(Displacements),
+    /// Displacements in a frame of their own, as of GPS: the rotation of each part against it is unknown
+    /// (Theorems 13.29 to 13.31).
+    OwnFrame {
+        /// These, or positions, which are one group.
+        given: Displacements,
+        /// Base lines of rigs, which are in the frame of the directions.
+        rigs: Displacements,
+    },
 }
 
 /// The arithmetic of the rank computation.
@@ -180,7 +188,7 @@ impl Question {
         let model = self.model;
         let is_projective = model == Model::Projective;
         let rational = self.arithmetic != Arithmetic::Prime;
-        let displacements = matches!(self.known, Known::Displacements(_));
+        let displacements = !matches!(self.known, Known::Parts(_));
         let full = matches!(self.solutions, CountSolutions::Full);
         let wrong = [
             (rational && !is_projective, Meaningless::Rational(model)),
@@ -226,7 +234,9 @@ impl Known {
     pub(super) fn split(self) -> (KnownParts, Displacements) {
         match self {
             Self::Parts(parts) => (parts, Displacements::default()),
-            Self::Displacements(known) => (KnownParts::default(), known),
+            Self::Displacements(known) | Self::OwnFrame { rigs: known, .. } => {
+                (KnownParts::default(), known)
+            }
         }
     }
 }

@@ -4,6 +4,7 @@ use crate::contract::Contraction;
 use crate::contract::piece::Members;
 use crate::decide::claim::{Claim, Strength};
 use crate::decide::evidence::{Evidence, PieceVerdict, smallest_prime};
+use crate::decide::own_frame::OwnFrame;
 use crate::decide::solution_count::SolutionCount;
 use crate::geometry::model::Model;
 use crate::graph::{Displacements, Graph, KnownParts};
@@ -123,6 +124,9 @@ pub struct Verdict {
     pub known_parts: KnownParts,
     /// What was known besides the graph: the displacements that the answer supposes.
     pub displacements: Displacements,
+    /// What displacements in a frame of their own add, if any are given; all else is about the graph
+    /// without them.
+    pub own_frame: Option<OwnFrame>,
     /// SHA-256 of the graph's canonical form.
     pub sha256: [u8; 32],
     /// The seed of all draws.
@@ -165,6 +169,26 @@ impl Verdict {
             value: self.value,
             strength: self.value_strength,
         }
+    }
+
+    /// The answer with all that is given; `None` if it is open, which only displacements in a frame of
+    /// their own leave.
+    pub fn answer(&self) -> Option<Value> {
+        match &self.own_frame {
+            Some(own_frame) => own_frame.value(),
+            None => Some(self.value),
+        }
+    }
+
+    /// The same in a word.
+    pub fn answer_name(&self) -> &'static str {
+        self.answer().map_or("open", Value::name)
+    }
+
+    /// Whether there are finitely many solutions with all that is given.
+    pub fn is_good(&self) -> bool {
+        self.answer()
+            .is_some_and(|value| value != Value::NotFiniteSolvable)
     }
 
     /// The answer without what rests on counting solutions: what a certificate may claim that holds

@@ -143,6 +143,29 @@ impl Displacements {
         nodes: u32,
         pairs: impl IntoIterator<Item = (u32, u32, [Coordinate; 3])>,
     ) -> Result<Self, VectorError> {
+        let known = Self::anywhere(nodes, pairs)?;
+        for (group, vectors) in known.groups.iter().zip(known.vectors.iter().flatten()) {
+            let ends = vectors.iter().zip(&group[1..]);
+            let mut places: Vec<_> = ends.map(|(&vector, &v)| (vector, v)).collect();
+            places.push(([0; 3], group[0]));
+            places.sort_unstable();
+            if let Some(same) = places.windows(2).find(|pair| pair[0].0 == pair[1].0) {
+                let [first, second] = [same[0].1, same[1].1];
+                return Err(VectorError::SamePlace { first, second });
+            }
+        }
+        Ok(known)
+    }
+
+    /// The same where two nodes may be at one place: in a frame of their own they are nodes of parts
+    /// that have no edge in common (docs/theory.md, Theorem 13.29).
+    ///
+    /// # Errors
+    /// As [`with_vectors`](Self::with_vectors), but for nodes at one place.
+    pub fn anywhere(
+        nodes: u32,
+        pairs: impl IntoIterator<Item = (u32, u32, [Coordinate; 3])>,
+    ) -> Result<Self, VectorError> {
         let (pairs, given): (Vec<_>, Vec<_>) = pairs
             .into_iter()
             .map(|(u, v, vector)| ((u, v), vector))
@@ -204,21 +227,14 @@ impl Displacements {
     }
 }
 
-/// The vectors from the first node of a group to the others, which are at places of their own.
+/// The vectors from the first node of a group to the others.
 fn from_first(group: &[u32], hanging: &mut Hanging) -> Result<Vec<Vector>, VectorError> {
     let (_, start) = hanging.find(group[0])?;
-    let mut places = Vec::with_capacity(group.len());
-    for &v in group {
+    let ends = group[1..].iter().map(|&v| {
         let (_, end) = hanging.find(v)?;
-        places.push((minus(end, start).ok_or(VectorError::TooLong)?, v));
-    }
-    let vectors = places[1..].iter().map(|&(vector, _)| vector).collect();
-    places.sort_unstable();
-    let same = places.windows(2).find(|pair| pair[0].0 == pair[1].0);
-    match same.map(|pair| [pair[0].1, pair[1].1]) {
-        Some([first, second]) => Err(VectorError::SamePlace { first, second }),
-        None => Ok(vectors),
-    }
+        minus(end, start).ok_or(VectorError::TooLong)
+    });
+    ends.collect()
 }
 
 #[cfg(test)]

@@ -13,7 +13,7 @@ pub(super) const MAX_DIGITS: u32 = 30;
 pub(super) type Vector = [i128; 3];
 
 /// A coordinate of a displacement, an exact rational number: `-1.25`, `3e-2`, `1/3`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Coordinate {
     numerator: i128,
     denominator: i128,

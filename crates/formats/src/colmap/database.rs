@@ -11,7 +11,6 @@ use super::{axes, base_lines, positions, rigs, tracks};
 use crate::error::{Fault, Place, Problem};
 use crate::{Matching, NamedGraph, ReadAs, ReadError, ReadOptions, TrackOptions};
 use viewcert::graph::{Graph, Labels};
-use viewcert::wording::counted;
 
 /// What decides about tracks in global mapping and stands in no database.
 const NOT_KNOWN: &str = "not known from a database: the pairs that global mapping drops because their \
@@ -85,7 +84,6 @@ impl Database {
         let mut graph = graph.map_err(|fault| fault.in_file(&self.name))?;
         let mut notes: Vec<String> = self.tables.other_mapper().into_iter().collect();
         notes.append(&mut graph.notes);
-        notes.extend(self.positions_not_used());
         notes.push(NOT_KNOWN.to_owned());
         Ok(self.finished(NamedGraph { notes, ..graph }, options.rigs))
     }
@@ -253,19 +251,6 @@ impl Database {
             database: Some(Box::new(self.facts.clone())),
             ..graph
         }
-    }
-
-    /// That pose priors would be known positions if they were asked for: they are metres off, so
-    /// nothing rests on them unasked.
-    fn positions_not_used(&self) -> Option<String> {
-        let name = &self.name;
-        (self.facts.positions > 1).then(|| {
-            format!(
-                "the pose priors of {} count only with --given {name}, which takes their positions \
-                 for known",
-                counted(self.facts.positions, "image")
-            )
-        })
     }
 }
 

@@ -90,7 +90,7 @@ pub enum DatabaseError {
     #[error("{0} of the pairs that are used have inliers, but no list of them")]
     NoLists(usize),
     /// Pairs that are used, and no match of theirs counts; or no pair is used.
-    #[error("the database has no tracks: {} used", are(*.0, "pair"))]
+    #[error("the database has no tracks: {}", match .0 { 0 => "no pair has enough inliers to be used".to_owned(), _ => format!("{} used", are(*.0, "pair")) })]
     NoTracks(usize),
     /// Something else, as SQLite says it.
     #[error("the SQLite database cannot be read: {0}")]

@@ -9,8 +9,8 @@ use crate::cameras::Cameras;
 use crate::edge_list::fields::Field;
 use crate::edge_list::refusal::shown;
 use crate::error::{Fault, Place, Problem};
-use crate::given::Given;
-use std::collections::BTreeSet;
+use crate::given::{Given, at_one_place, one_place, turned};
+use std::collections::{BTreeSet, HashMap};
 use viewcert::Known;
 use viewcert::graph::{Coordinate, CoordinateError, Displacements, VectorError};
 use viewcert::wording::counted;
@@ -119,17 +119,20 @@ impl Lines {
         }
     }
 
-    pub(super) fn finish(mut self, graph: &NamedGraph) -> Result<Given, Fault> {
+    pub(super) fn finish(mut self, graph: &NamedGraph, one_frame: bool) -> Result<Given, Fault> {
         let pairs: BTreeSet<_> = self.pairs.iter().map(|line| sorted(line.about)).collect();
         let positions: BTreeSet<_> = self.positions.iter().map(|line| line.about).collect();
         let again = self.pairs.len() - pairs.len() + self.positions.len() - positions.len();
-        self.take_positions()?;
-        let known = self.known(graph)?;
+        let same = self.take_positions(graph, one_frame)?;
+        let known = self.known(graph, one_frame)?;
         if known.is_empty() {
-            return Err(Place::Input.fault(Problem::new(
-                "the file holds no displacement",
-                "write pairs of cameras, one a line, or cameras with known positions, two at least",
-            )));
+            return Err(Place::Input.fault(match positions.len() {
+                0 | 1 => Problem::new(
+                    "the file holds no displacement",
+                    "write pairs of cameras, one a line, or cameras with known positions, two at least",
+                ),
+                count => one_place(count),
+            }));
         }
         let is_other = |&&(v, w): &&(u32, u32)| graph.graph.edge_number(v, w).is_none();
         let others = pairs.iter().filter(is_other).count();
@@ -164,19 +167,33 @@ impl Lines {
             "is of no pair of the graph: its direction is known with it",
             "are of no pairs of the graph: their directions are known with them",
         );
-        Ok(Given {
-            known: Known::Displacements(known),
-            notes,
-        })
+        notes.extend(same);
+        let known = match one_frame {
+            true => Known::Displacements(known),
+            false => Known::OwnFrame {
+                given: known,
+                rigs: Displacements::default(),
+            },
+        };
+        Ok(Given { known, notes })
     }
 
-    /// Makes positions, which are known in one frame, displacements from the first of them.
-    fn take_positions(&mut self) -> Result<(), Fault> {
-        let mut positions = std::mem::take(&mut self.positions).into_iter();
+    /// Makes positions, which are known in one frame, displacements from the first of them; those at one
+    /// place are one, which is noted.
+    fn take_positions(
+        &mut self,
+        graph: &NamedGraph,
+        one_frame: bool,
+    ) -> Result<Option<String>, Fault> {
+        let positions = std::mem::take(&mut self.positions);
+        let places = positions.iter();
+        let places = places.filter_map(|line| Some((line.about, line.vector.as_ref()?)));
+        let (again, note) = at_one_place(places, graph, one_frame);
+        let mut positions = positions.into_iter();
         let Some(first) = positions.next() else {
-            return Ok(());
+            return Ok(None);
         };
-        for line in positions {
+        for line in positions.filter(|line| !again.contains(&line.about)) {
             let fault = |problem| Place::Line(line.number).fault(problem);
             let vector = match line.vector.zip(first.vector) {
                 None => None,
@@ -192,11 +209,11 @@ impl Lines {
                 return Err(fault(contradiction()));
             }
         }
-        Ok(())
+        Ok(note)
     }
 
     /// The groups, with their vectors if there are any.
-    fn known(&self, graph: &NamedGraph) -> Result<Displacements, Fault> {
+    fn known(&self, graph: &NamedGraph, one_frame: bool) -> Result<Displacements, Fault> {
         let nodes = graph.graph.nodes() as u32;
         let pairs = self.pairs.iter().map(|line| line.about);
         let given: Option<Vec<Vector>> = self.pairs.iter().map(|line| line.vector).collect();
@@ -204,7 +221,12 @@ impl Lines {
             return Ok(Displacements::new(nodes, pairs).expect("pairs of the graph's nodes"));
         };
         let items = pairs.zip(given).map(|((u, v), vector)| (u, v, vector));
-        Displacements::with_vectors(nodes, items).map_err(|error| match error {
+        let known = match one_frame {
+            true => Displacements::with_vectors(nodes, items),
+            false => Displacements::anywhere(nodes, items),
+        };
+        let known = known.and_then(|known| apart(known, graph, one_frame));
+        known.map_err(|error| match error {
             VectorError::Contradiction { vector } => {
                 Place::Line(self.pairs[vector].number).fault(contradiction())
             }
@@ -235,11 +257,34 @@ fn contradiction() -> Problem {
     )
 }
 
-fn long_vectors() -> Problem {
+pub(super) fn long_vectors() -> Problem {
     Problem::new(
         "as multiples of one unit, the vectors have more than 30 digits",
         "round them, so that all have the same few decimals",
     )
+}
+
+/// Refuses two cameras of one part at one place.
+fn apart(
+    known: Displacements,
+    graph: &NamedGraph,
+    one_frame: bool,
+) -> Result<Displacements, VectorError> {
+    if one_frame {
+        return Ok(known);
+    }
+    let mut parts = turned(graph);
+    let vectors = known.vectors().unwrap_or_default();
+    for (group, vectors) in known.groups().iter().zip(vectors) {
+        let mut at = HashMap::from([((parts.find(group[0] as usize), [0; 3]), group[0])]);
+        for (&second, &vector) in group[1..].iter().zip(vectors) {
+            let first = at.insert((parts.find(second as usize), vector), second);
+            if let Some(first) = first {
+                return Err(VectorError::SamePlace { first, second });
+            }
+        }
+    }
+    Ok(known)
 }
 
 fn sorted((v, w): (u32, u32)) -> (u32, u32) {

@@ -12,6 +12,7 @@ pub(crate) mod places;
 mod priors;
 mod table;
 
+use std::collections::{BTreeSet, HashMap};
 use std::io::Read;
 use std::path::Path;
 
@@ -20,7 +21,8 @@ use crate::edge_list::fields::split;
 use crate::edge_list::refusal::shown;
 use crate::error::{Fault, Place, Problem, ReadError};
 use crate::{NamedGraph, colmap, whole};
-use viewcert::graph::Displacements;
+use viewcert::graph::{Coordinate, Displacements, UnionFind};
+use viewcert::wording::counted;
 use viewcert::{Known, Model};
 
 pub use parts::NamedParts;
@@ -36,28 +38,58 @@ pub struct Given {
 }
 
 /// What is given besides the pairs of a graph: by its rigs, and by a file if there is one (`-` is standard
-/// input); of a COLMAP database these are the positions of its pose priors. Notes begin with its name.
+/// input); of a COLMAP database these are the positions of its pose priors. Displacements and positions have
+/// a frame of their own, unless the file or `one_frame` says that it is that of the directions. Notes begin
+/// with its name.
 /// O(n + k log k) for k fields, and for parts inside of others what it takes to compare them.
 ///
 /// # Errors
 /// With file and line: what the grammar excludes, a label that the graph does not have, parts beside
 /// displacements, vectors on some lines only or that contradict each other; a file that cannot be read
 /// or gives nothing; what does not go together with base lines of rigs.
-pub fn given(path: Option<&Path>, input: &NamedGraph) -> Result<Given, ReadError> {
+pub fn given(path: Option<&Path>, input: &NamedGraph, one_frame: bool) -> Result<Given, ReadError> {
     match path {
-        None => joined(Given::default(), &input.name, input),
+        None if one_frame => Err(no_frame(&input.name)),
+        None => {
+            let mut given = joined(Given::default(), &input.name, input)?;
+            given.notes.extend(priors::not_used(input));
+            Ok(given)
+        }
         Some(path) if colmap::is_database(path) => joined(
-            priors::read(path, input)?,
+            priors::read(path, input, one_frame)?,
             &path.display().to_string(),
             input,
         ),
-        Some(path) => given_in(&whole::bytes(path)?, &path.display().to_string(), input),
+        Some(path) => {
+            let name = path.display().to_string();
+            given_in(&whole::bytes(path)?, &name, input, one_frame)
+        }
     }
 }
 
+/// Nothing is given that has a frame.
+fn no_frame(name: &str) -> ReadError {
+    let (option, why) = (
+        "--one-frame",
+        "no displacements and no positions are given that could have another frame",
+    );
+    Place::Input
+        .fault(Problem::unused(option, why))
+        .in_file(name)
+}
+
 /// What the bytes of a file give.
-fn given_in(bytes: &[u8], name: &str, input: &NamedGraph) -> Result<Given, ReadError> {
-    let mut found = read(bytes, input).map_err(|fault| fault.in_file(name))?;
+fn given_in(
+    bytes: &[u8],
+    name: &str,
+    input: &NamedGraph,
+    one_frame: bool,
+) -> Result<Given, ReadError> {
+    let found = read(bytes, input, one_frame).map_err(|fault| fault.in_file(name))?;
+    if one_frame && matches!(found.known, Known::Parts(_)) {
+        return Err(no_frame(name));
+    }
+    let mut found = found;
     for note in &mut found.notes {
         *note = format!("{name}: {note}");
     }
@@ -85,18 +117,30 @@ pub enum Beside {
 ///
 /// # Errors
 /// As there.
-pub fn beside(path: Option<&Path>, input: &NamedGraph, model: Model) -> Result<Beside, ReadError> {
+pub fn beside(
+    path: Option<&Path>,
+    input: &NamedGraph,
+    model: Model,
+    one_frame: bool,
+) -> Result<Beside, ReadError> {
     let Some(path) = path.filter(|path| !colmap::is_database(path)) else {
-        return given(path, input).map(Beside::Known);
+        return given(path, input, one_frame).map(Beside::Known);
     };
-    if path.is_dir() {
-        return cameras::of_folder(path, input, model).map(Beside::Cameras);
-    }
-    // What is no file can be read only once.
-    let (bytes, name) = (whole::bytes(path)?, path.display().to_string());
-    match cameras::cameras_in(&bytes, &name, input, model)? {
-        Some(cameras) => Ok(Beside::Cameras(cameras)),
-        None => given_in(&bytes, &name, input).map(Beside::Known),
+    let name = path.display().to_string();
+    let cameras = match path.is_dir() {
+        true => cameras::of_folder(path, input, model)?,
+        false => {
+            // What is no file can be read only once.
+            let bytes = whole::bytes(path)?;
+            match cameras::cameras_in(&bytes, &name, input, model)? {
+                Some(cameras) => cameras,
+                None => return given_in(&bytes, &name, input, one_frame).map(Beside::Known),
+            }
+        }
+    };
+    match one_frame {
+        true => Err(no_frame(&name)),
+        false => Ok(Beside::Cameras(cameras)),
     }
 }
 
@@ -133,8 +177,15 @@ pub fn with_rigs(known: Known, input: &NamedGraph) -> Result<Known, Problem> {
         .frames
         .as_ref()
         .map_or(&[][..], |frames| &frames.groups);
+    if let Known::OwnFrame { given, .. } = known {
+        let stars = stars(groups);
+        let rigs = Displacements::new(input.graph.nodes() as u32, stars);
+        let rigs = rigs.expect("groups of nodes of the graph");
+        return Ok(Known::OwnFrame { given, rigs });
+    }
     let displaced = match &known {
         _ if groups.is_empty() => return Ok(known),
+        Known::OwnFrame { .. } => &[][..],
         Known::Parts(parts) if !parts.is_empty() => {
             return Err(beside_rigs("known parts"));
         }
@@ -144,21 +195,90 @@ pub fn with_rigs(known: Known, input: &NamedGraph) -> Result<Known, Problem> {
         }
         Known::Displacements(known) => known.groups(),
     };
-    let groups = displaced.iter().chain(groups);
-    let stars = groups.flat_map(|group| group[1..].iter().map(|&other| (group[0], other)));
+    let stars = stars(displaced).chain(stars(groups));
     let all = Displacements::new(input.graph.nodes() as u32, stars);
     Ok(Known::Displacements(
         all.expect("groups of nodes of the graph"),
     ))
 }
 
+/// Pairs that make sets of nodes hang together.
+fn stars(groups: &[Vec<u32>]) -> impl Iterator<Item = (u32, u32)> + '_ {
+    let star = |group: &Vec<u32>| {
+        let first = group[0];
+        let others: Vec<_> = group[1..].iter().map(|&other| (first, other)).collect();
+        others
+    };
+    groups.iter().flat_map(star)
+}
+
+/// Positions that are all at one place.
+fn one_place(count: usize) -> Problem {
+    let positions = counted(count, "camera");
+    Problem::new(
+        format!(
+            "the positions of {positions} are one place, and images at one place have one position: two are needed"
+        ),
+        POSITIONS,
+    )
+}
+
+/// What to do about positions that say too little.
+const POSITIONS: &str = "import positions into the database, or write the cameras whose position is known into a file, `position` \
+                         before each";
+
+/// The parts of a graph, within which pairs and rigs say how images are turned against each other.
+fn turned(input: &NamedGraph) -> UnionFind {
+    let mut sets = UnionFind::new(input.graph.nodes());
+    let frames = input.frames.iter();
+    let rigs = frames.flat_map(|frames| stars(&frames.groups));
+    for (u, v) in input.graph.edges().iter().copied().chain(rigs) {
+        sets.union(u as usize, v as usize);
+    }
+    sets
+}
+
+/// Cameras of one part at one place have one position: that of the first of them. Returns the others
+/// that are left out, and a note about them. All cameras are one part if they have one frame.
+fn at_one_place<'p>(
+    places: impl Iterator<Item = (u32, &'p [Coordinate; 3])>,
+    input: &NamedGraph,
+    one_frame: bool,
+) -> (BTreeSet<u32>, Option<String>) {
+    let mut parts = turned(input);
+    let mut at: HashMap<(usize, &[Coordinate; 3]), u32> = HashMap::new();
+    let mut again: Vec<(u32, u32)> = Vec::new();
+    for (node, place) in places {
+        let part = if one_frame {
+            0
+        } else {
+            parts.find(node as usize)
+        };
+        let first = *at.entry((part, place)).or_insert(node);
+        if first != node {
+            again.push((first, node));
+        }
+    }
+    let note = again.first().map(|&(first, second)| {
+        let [first, second] = [first, second].map(|v| input.labels.label(v));
+        let has = if again.len() == 1 { "has" } else { "have" };
+        format!(
+            "{} {has} the very position of another one, first {second} that of {first}: images at one \
+             place have one position, and the first of them has it",
+            counted(again.len(), "camera")
+        )
+    });
+    (again.into_iter().map(|(_, node)| node).collect(), note)
+}
+
 /// Reads what is given besides the pairs of a graph; see [`given`].
 ///
 /// # Errors
 /// As there, but for the name of the file.
-pub fn read(input: impl Read, graph: &NamedGraph) -> Result<Given, Fault> {
+pub fn read(input: impl Read, graph: &NamedGraph, one_frame: bool) -> Result<Given, Fault> {
     let mut parts = parts::Lines::default();
     let mut displacements = displacements::Lines::default();
+    let mut one_frame = one_frame;
     let mut fields = Vec::new();
     for_each_line(input, graph, |number, line, cameras| {
         split(line, &mut fields)?;
@@ -169,6 +289,7 @@ pub fn read(input: impl Read, graph: &NamedGraph) -> Result<Given, Fault> {
             PART => parts.take(number, line, fields, cameras)?,
             DISPLACEMENT => displacements.take_pair(number, line, fields, cameras)?,
             POSITION => displacements.take_position(number, line, fields, cameras)?,
+            ONE_FRAME if fields.is_empty() => one_frame = true,
             other if cameras::WORDS.contains(&other) => {
                 return Err(Problem::new(
                     format!(
@@ -195,7 +316,7 @@ pub fn read(input: impl Read, graph: &NamedGraph) -> Result<Given, Fault> {
     })?;
     match (parts.is_empty(), displacements.is_empty()) {
         (true, true) => Err(Place::Input.fault(Problem::new("the file gives nothing", LINES))),
-        (true, false) => displacements.finish(graph),
+        (true, false) => displacements.finish(graph, one_frame),
         (false, _) => {
             let nodes = graph.graph.nodes() as u32;
             let NamedParts { parts, notes } =
@@ -215,6 +336,8 @@ const PART: &str = "part";
 const DISPLACEMENT: &str = "displacement";
 /// The first word of a line with a known position: a camera follows, and perhaps where it is.
 const POSITION: &str = "position";
+/// A line that says that displacements and positions are in the frame of the directions.
+const ONE_FRAME: &str = "one-frame";
 
 /// How a line with a camera is written.
 const CAMERA_LINES: &str = "write `camera`, a name and the 12 entries of its matrix, row by row; or `pose`, a name, a quaternion (real \

@@ -1,8 +1,8 @@
 //! Known positions from the pose priors of a COLMAP database.
 //!
 //! In: a database, and a graph whose cameras are called as its images. Out: one group of the cameras
-//! that have a position ([`Displacements`]). That they have one is what is used, not where it is:
-//! priors are metres off, and the answer is about positions in general position.
+//! that have a position ([`Displacements`]), with the vectors between them, rounded as docs/databases.md
+//! says.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -11,27 +11,42 @@ use crate::NamedGraph;
 use crate::cameras::Cameras;
 use crate::colmap::{PosePriors, pose_priors};
 use crate::error::{Fault, Place, Problem, ReadError};
-use crate::given::Given;
+use crate::given::displacements::long_vectors;
+use crate::given::{Given, POSITIONS, at_one_place, one_place};
 use viewcert::Known;
-use viewcert::graph::Displacements;
+use viewcert::graph::{Coordinate, CoordinateError, Displacements};
 use viewcert::wording::counted;
+
+/// That the pose priors of a graph's own database would be known positions if they were asked for: they are
+/// metres off, so nothing rests on them unasked.
+pub(super) fn not_used(graph: &NamedGraph) -> Option<String> {
+    let of_tracks = graph.database.as_ref().filter(|_| graph.cameras.is_some());
+    let positions = of_tracks?.positions;
+    (positions > 1).then(|| {
+        format!(
+            "the pose priors of {} count only with --given {}, which takes their positions for known",
+            counted(positions, "image"),
+            graph.name
+        )
+    })
+}
 
 /// The cameras of `graph` to which the database `path` gives a position. O(n log n).
 ///
 /// # Errors
 /// A database that cannot be read or contradicts itself; one without positions of two cameras.
-pub(super) fn read(path: &Path, graph: &NamedGraph) -> Result<Given, ReadError> {
+pub(super) fn read(path: &Path, graph: &NamedGraph, one_frame: bool) -> Result<Given, ReadError> {
     let name = path.display().to_string();
     let fault = |problem: Problem| Place::Input.fault(problem).in_file(&name);
     let priors = pose_priors(path).map_err(|error| fault(error.into()))?;
-    let mut given = of(&priors, graph).map_err(|fault| fault.in_file(&name))?;
+    let mut given = of(&priors, graph, one_frame).map_err(|fault| fault.in_file(&name))?;
     for note in &mut given.notes {
         *note = format!("{name}: {note}");
     }
     Ok(given)
 }
 
-fn of(priors: &PosePriors, graph: &NamedGraph) -> Result<Given, Fault> {
+fn of(priors: &PosePriors, graph: &NamedGraph, one_frame: bool) -> Result<Given, Fault> {
     let cameras = Cameras::new(graph);
     // An image at the place of another one of its frame is called by that one.
     let frames = graph.frames.as_ref().into_iter();
@@ -40,50 +55,106 @@ fn of(priors: &PosePriors, graph: &NamedGraph) -> Result<Given, Fault> {
         .flat_map(|(&camera, names)| names.iter().map(move |name| (&**name, camera)))
         .collect();
     let node = |name: &str| aliases.get(name).copied().or_else(|| cameras.node(name));
-    let mut known: BTreeMap<u32, [f64; 3]> = BTreeMap::new();
+    let mut known: BTreeMap<u32, [Coordinate; 3]> = BTreeMap::new();
     let mut strangers = 0;
     for (name, &place) in &priors.positions {
         match node(name) {
-            Some(node) => drop(known.insert(node, place)),
+            Some(node) => {
+                let place = rounded(place, priors.on_earth);
+                let place = place.map_err(|_| Place::Input.fault(long_vectors()))?;
+                known.insert(node, place);
+            }
             None => strangers += 1,
         }
     }
-    let Some(first) = known.keys().next().copied().filter(|_| known.len() > 1) else {
-        return Err(Place::Input.fault(Problem::new(
-            format!(
-                "the pose priors of the database give {} of the graph a position, and two are needed",
-                counted(known.len(), "camera")
+    let count = known.len();
+    let places = known.iter().map(|(&node, place)| (node, place));
+    let (again, same) = at_one_place(places, graph, one_frame);
+    known.retain(|node, _| !again.contains(node));
+    let first = known.iter().next();
+    let Some((&first, &start)) = first.filter(|_| known.len() > 1) else {
+        return Err(Place::Input.fault(match count {
+            0 | 1 => Problem::new(
+                format!(
+                    "the pose priors of the database give {} of the graph a position, and two are needed",
+                    counted(count, "camera")
+                ),
+                POSITIONS,
             ),
-            "import positions into the database, or write the cameras whose position is known into a file, `position` before each",
-        )));
+            _ => one_place(count),
+        }));
     };
-    let stars = known.keys().skip(1).map(|&other| (first, other));
-    let group = Displacements::new(graph.graph.nodes() as u32, stars);
+    let vectors: Result<Vec<_>, CoordinateError> = known
+        .iter()
+        .skip(1)
+        .map(|(&other, place)| {
+            let minus = |k: usize| place[k].minus(start[k]);
+            Ok((first, other, [minus(0)?, minus(1)?, minus(2)?]))
+        })
+        .collect();
+    let nodes = graph.graph.nodes() as u32;
+    let group = vectors
+        .ok()
+        .and_then(|vectors| Displacements::anywhere(nodes, vectors).ok());
+    let group = group.ok_or_else(|| Place::Input.fault(long_vectors()))?;
+    let notes = notes(priors, count, strangers, one_frame);
     Ok(Given {
-        known: Known::Displacements(group.expect("nodes of the graph")),
-        notes: notes(priors, &known, strangers, graph),
+        known: match one_frame {
+            true => Known::Displacements(group),
+            false => Known::OwnFrame {
+                given: group,
+                rigs: Displacements::default(),
+            },
+        },
+        notes: notes.into_iter().chain(same).collect(),
     })
 }
 
+/// A position as exact numbers: x, y, z to six decimals; of latitude and longitude in degrees, and altitude, the
+/// centre of the Earth the origin, metres to three decimals.
+fn rounded(place: [f64; 3], on_earth: bool) -> Result<[Coordinate; 3], CoordinateError> {
+    let text = |number: f64| match on_earth {
+        true => format!("{number:.3}"),
+        false => format!("{number:.6}"),
+    };
+    let [x, y, z] = if on_earth { from_centre(place) } else { place };
+    Ok([text(x).parse()?, text(y).parse()?, text(z).parse()?])
+}
+
+/// Latitude, longitude and altitude in metres from the centre of the Earth, on the ellipsoid of WGS84.
+fn from_centre([latitude, longitude, altitude]: [f64; 3]) -> [f64; 3] {
+    let (equator, flattening) = (6_378_137.0, 1.0 / 298.257_223_563);
+    let squared: f64 = flattening * (2.0 - flattening);
+    let (sin, cos) = latitude.to_radians().sin_cos();
+    let normal = equator / (1.0 - squared * sin * sin).sqrt();
+    let (east, along) = longitude.to_radians().sin_cos();
+    let from_axis = (normal + altitude) * cos;
+    [
+        from_axis * along,
+        from_axis * east,
+        (normal * (1.0 - squared) + altitude) * sin,
+    ]
+}
+
 /// What was read, merged and ignored, in words.
-fn notes(
-    priors: &PosePriors,
-    known: &BTreeMap<u32, [f64; 3]>,
-    strangers: usize,
-    graph: &NamedGraph,
-) -> Vec<String> {
+fn notes(priors: &PosePriors, known: usize, strangers: usize, one_frame: bool) -> Vec<String> {
     let system = if priors.on_earth {
-        "latitude, longitude and altitude"
+        "latitude, longitude and altitude, in metres to three decimals"
     } else {
-        "x, y and z"
+        "x, y and z, to six decimals"
+    };
+    let frame = if one_frame {
+        "in the frame of the directions (--one-frame)"
+    } else {
+        "in a frame of their own"
     };
     let deviation = priors.deviation.map_or(String::new(), |deviation| {
         format!(" (standard deviations up to {deviation:.3})")
     });
     let mut notes = vec![format!(
-        "the positions of {} ({system}) are taken for known, in general position and in the frame of \
-         the directions; how far they are off{deviation} is left out of account",
-        counted(known.len(), "camera")
+        "the positions of {} ({system}) are taken for known, {frame}; how far they are off{deviation} is \
+         left out of account",
+        counted(known, "camera")
     )];
     if priors.unknown > 0 {
         let has = if priors.unknown == 1 { "has" } else { "have" };
@@ -97,26 +168,6 @@ fn notes(
         notes.push(format!(
             "ignored: {} with a position that {is} not in the graph",
             counted(strangers, "image")
-        ));
-    }
-    let mut at: BTreeMap<[u64; 3], u32> = BTreeMap::new();
-    let mut again = Vec::new();
-    for (&node, place) in known {
-        // Zero has two signs.
-        let bits = place.map(|number| (number + 0.0).to_bits());
-        if let Some(&other) = at.get(&bits) {
-            again.push((other, node));
-        } else {
-            at.insert(bits, node);
-        }
-    }
-    if let Some(&(first, second)) = again.first() {
-        let [first, second] = [first, second].map(|v| graph.labels.label(v));
-        let has = if again.len() == 1 { "has" } else { "have" };
-        notes.push(format!(
-            "{} {has} the very position of another one, first {second} that of {first}: 'not-finite-solvable' \
-             is proved all the same, 'solvable' supposes that they are at different places",
-            counted(again.len(), "camera")
         ));
     }
     notes

@@ -26,7 +26,7 @@ fn lines(word: &str, lines: &[&str]) -> String {
 }
 
 fn given(text: &str, graph: &NamedGraph) -> Result<Given, String> {
-    read(text.as_bytes(), graph).map_err(|fault| fault.in_file("known.txt").to_string())
+    read(text.as_bytes(), graph, false).map_err(|fault| fault.in_file("known.txt").to_string())
 }
 
 fn parts(text: &str, graph: &NamedGraph) -> (Vec<Vec<u32>>, Vec<String>) {
@@ -41,7 +41,7 @@ type Vectors = Option<Vec<Vec<[i128; 3]>>>;
 
 fn displacements(text: &str, graph: &NamedGraph) -> (Vec<Vec<u32>>, Vectors, Vec<String>) {
     let found = given(text, graph).unwrap();
-    let Known::Displacements(known) = found.known else {
+    let Known::OwnFrame { given: known, .. } = found.known else {
         panic!("no displacements: {text}")
     };
     let vectors = known.vectors().map(<[_]>::to_vec);
@@ -224,5 +224,5 @@ fn what_is_wrong_is_said_with_its_line() {
         let error = given(&format!("part 1 {label}"), &numbers).unwrap_err();
         assert!(error.contains("is no camera of the graph"), "{error}");
     }
-    assert!(super::given(Some(Path::new("no such file")), &numbers).is_err());
+    assert!(super::given(Some(Path::new("no such file")), &numbers, false).is_err());
 }

@@ -75,6 +75,7 @@ impl Here {
                 components: Valued::new(self.components.clone(), |all| all.len()),
                 solutions: None,
                 base_lines: None,
+                own_frame: None,
             },
             bodies: self
                 .contraction
