@@ -96,10 +96,7 @@ pub(super) fn read_with(
 fn no_text(head: &[u8]) -> Option<Fault> {
     let head = head.strip_prefix(BYTE_ORDER_MARK).unwrap_or(head);
     // The last line may be cut within a character.
-    let end = match head.iter().rposition(|&byte| byte == b'\n') {
-        None if head.contains(&0) => head.len(),
-        end => end?,
-    };
+    let end = head.iter().rposition(|&byte| byte == b'\n')?;
     let mut lines = (1..).zip(head[..end].split(|&byte| byte == b'\n'));
     lines.find_map(|(number, line)| {
         let problem = text(line.strip_suffix(b"\r").unwrap_or(line)).err()?;

@@ -501,6 +501,7 @@ fn list(sampled: Sampled, reading: Reading, options: &ListOptions) -> Result<Par
         };
         match named {
             Some(problem) => Place::Input.fault(problem),
+            None if head.contains(&0) => Place::Input.fault(Problem::Nul),
             None => place.fault(problem),
         }
     })
