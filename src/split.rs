@@ -1,15 +1,14 @@
-//! `verify split MODEL DIR`: a model taken apart where its tracks do not hold it together.
+//! `verify split MODEL DIR`: a model taken apart where its observations do not hold it together.
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result, anyhow, ensure};
 use clap::Args;
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
-use viewcert::Known;
-use viewcert::decide::{Options, Question, decide};
-use viewcert_advice::{Advice, named_joints, split};
-use viewcert_formats::{Model, ReadOptions, TrackOptions, read_graphs, with_rigs};
-use viewcert_report::Report;
-use viewcert_report::assumptions::{Asked, BaseLines, Scope};
+use std::time::Instant;
+use viewcert::here::finished::held;
+use viewcert_advice::split::{self, Free};
+use viewcert_audit::softness::softness;
+use viewcert_formats::{Model, ReadOptions, read_graphs};
+use viewcert_report::counted;
 use viewcert_report::split::SplitReport;
 use viewcert_session::Session;
 use viewcert_session::outputs;
@@ -21,14 +20,13 @@ pub(super) struct SplitArguments {
     /// frames if they are there. It is read and never written to.
     #[arg(value_name = "MODEL")]
     model: PathBuf,
-    /// The folder for the parts: a COLMAP model for each, a table, and a page that says why. It holds
-    /// nothing else.
+    /// The folder for the parts: a COLMAP model for each, and a table. It holds nothing else.
     #[arg(value_name = "DIR")]
     folder: PathBuf,
-    /// In how many images a point has to be seen to hold them together [default: 3, as in global
-    /// mapping].
-    #[arg(long, value_name = "N")]
-    min_views: Option<u32>,
+    /// In how many images a point has to be seen to hold them together: 3 asks what global mapping
+    /// rests on.
+    #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u32).range(2..))]
+    min_views: u32,
     /// Leave the rigs of the model out of account, as if every image had a centre of its own: for rigs
     /// whose base lines the mapper had to find.
     #[arg(long)]
@@ -48,60 +46,64 @@ pub(super) fn run(session: &Session, arguments: &SplitArguments) -> Result<u8> {
         path.display()
     );
     split::check(&arguments.folder, path)?;
-    let default = TrackOptions::default();
-    let options = ReadOptions {
-        tracks: Some(TrackOptions {
-            min_views: arguments.min_views.unwrap_or(default.min_views),
-            rigs: !arguments.no_rigs,
-            ..default
-        }),
-        ..ReadOptions::default()
-    };
     session.reading(path);
-    let input = read_graphs(path, &options).next();
-    let input = input.with_context(|| format!("{}: no graph", path.display()))??;
-    let model = Model::read(path)?;
-    session.hide();
-    let question = Question::calibrated(with_rigs(Known::default(), &input)?);
-    let options = Options::default().question(question);
-    let verdict = decide(&input.graph, &options.watch(session.shown_watch()));
-    session.hide();
-    let verdict = verdict.with_context(|| input.name.clone())?;
-    let scope = Scope::new(&input, &verdict, Asked::default(), &session.shown_watch());
-    session.hide();
-    let scope = scope.with_context(|| input.name.clone())?;
-    let whole = scope.base_lines().is_some_and(BaseLines::is_determined);
-    // What frames hold together has no joints.
-    let joints = match whole {
-        true => Ok(Advice::default()),
-        false => named_joints(&input, &verdict, Options::default().seed, session.watch()),
+    let least = arguments.min_views as usize;
+    let refused = |why: String| {
+        anyhow!(
+            "{}/{why}; map again, or leave it out of the model",
+            path.display()
+        )
     };
-    session.hide();
-    let joints = joints.with_context(|| input.name.clone())?;
-    let mut report = Report {
-        input: &input,
-        verdict: &verdict,
-        rational: false,
-        list_components: false,
-        time: Duration::ZERO,
-        advice: &joints,
-        scope: &scope,
-        proof: None,
-        here: None,
+    let model = match Model::read(path) {
+        Ok(model) if !model.points.is_empty() => model,
+        // A model without points is refused as it is everywhere.
+        other => match read_graphs(path, &ReadOptions::default()).next() {
+            Some(Err(error)) => return Err(error.into()),
+            _ => other?,
+        },
     };
+    let posed = model.posed(least, !arguments.no_rigs).map_err(refused)?;
+    ensure!(
+        posed.images.len() > 1,
+        "{}: the model has {}, and a part has two or more; name another model",
+        path.display(),
+        counted(posed.images.len(), "image")
+    );
+    session.hide();
+    let held = held(&posed.exact(), &session.shown_watch());
+    session.hide();
+    let held = held.with_context(|| path.display().to_string())?;
+    session.doing(format!("measuring {}", path.display()));
+    let softness = softness(&posed, held.is_scaled);
     session.doing(format!("writing {}", arguments.folder.display()));
-    let (outputs, folder) = (session.outputs(), &arguments.folder);
-    let found = split::split(outputs, folder, &model, &input, &verdict, whole, |split| {
-        report.time = start.elapsed();
-        let report = SplitReport { report, split };
-        Ok(report.page()?)
-    });
+    let found = split::split(session.outputs(), &arguments.folder, &model, &held.parts);
     session.hide();
-    let found = found?;
-    report.time = start.elapsed();
+    let (softness, found) = (softness?, found?);
+    let mut notes = Vec::new();
+    let short = model.points.len() - posed.points.len();
+    if short > 0 {
+        let advice = if posed.points.is_empty() {
+            "; say --min-views 2 to count them"
+        } else {
+            ""
+        };
+        notes.push(format!(
+            "not counted: {} in fewer than {least} images (--min-views){advice}",
+            counted(short, "point")
+        ));
+    }
     let report = SplitReport {
-        report,
+        model: path.display().to_string(),
+        notes,
+        points: posed.points.len(),
+        least,
+        observations: posed.tracks.iter().map(Vec::len).sum(),
+        images: posed.images.len(),
+        free: &Free::of(&held, &model, &posed),
+        held: &held,
+        softness,
         split: &found,
+        time: start.elapsed(),
     };
     outputs::answer(
         arguments.json,

@@ -140,7 +140,8 @@ fn joined(text: &str) -> String {
 }
 
 /// Words that promise a reconstruction.
-const PROMISES: [&str; 5] = [
+const PROMISES: [&str; 6] = [
+    "fixed: no motion",
     "all determined",
     "determine all",
     "are unique",
@@ -292,11 +293,12 @@ fn text_model(folder: &Path, points: u32) {
     let seen = seen.join(" ");
     let mut images = "# Image list with two lines of data per image:\n".to_owned();
     for id in 1..=3 {
-        images += &format!("{id} 1 0 0 0 {id} 0 0 1 {}\n{seen}\n", name(id));
+        images += &format!("{id} 1 0 0 0 {id} {} 0 1 {}\n{seen}\n", id * id, name(id));
     }
     let mut list = "# 3D point list with one line of data per point:\n".to_owned();
     for k in 0..points {
-        list += &format!("{k} 0.5 1.5 {k}.5 9 9 9 0.1 1 {k} 2 {k} 3 {k}\n");
+        let (x, y) = (k * k % 7, k * k * k % 11);
+        list += &format!("{k} {x}.5 {y}.5 {k}.5 9 9 9 0.1 1 {k} 2 {k} 3 {k}\n");
     }
     for (name, text) in [
         ("cameras", cameras),

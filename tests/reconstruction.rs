@@ -67,6 +67,19 @@ fn parts_of_glued_models_agree_with_the_truth() {
     assert_ne!(cells[2], "0", "{said}");
 }
 
+/// Groups of images that share points, images, places or frames: `verify split` calls a model free exactly if the null
+/// space of its reprojection errors does. The script's exit code says so.
+#[test]
+#[ignore = "needs numpy"]
+fn free_models_are_those_of_the_null_space() {
+    let said = said_by("adjustments.py", ["--count", "500"]);
+    let row = said.lines().last().unwrap();
+    let cells: Vec<&str> = row.trim_matches(['|', ' ']).split(" | ").collect();
+    let free: u32 = cells[1].trim_end_matches(" free").parse().unwrap();
+    assert!((150..=350).contains(&free), "{said}");
+    assert_eq!(cells[3], "0 wrong", "{said}");
+}
+
 /// pycolmap reads the parts of a model with rigs, also where a frame has images in two parts; base lines
 /// hold images together, and sensors at one place have none.
 #[test]

@@ -1,19 +1,33 @@
 //! `verify split`, `verify merge` and `verify lists` through the binary.
 
 use crate::common::schema::keeps_to;
-use crate::common::{Run, samples, verify};
+use crate::common::{Run, data, samples, verify};
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-/// Writes a model of images that are called by their places, and of tracks, each a list of images.
+/// Coordinates between 0 and 8 that look random.
+fn place(k: usize) -> String {
+    // Steele, Lea and Flood 2014.
+    let number = |c: usize| {
+        let n = (3 * k + c + 1) as u64;
+        let n = n.wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        let n = (n ^ n >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        let n = (n ^ n >> 27).wrapping_mul(0x94D0_49BB_1331_11EB);
+        (n ^ n >> 31) >> 51
+    };
+    let [x, y, z] = [0, 1, 2].map(|c| number(c) as f64 / 1024.0);
+    format!("{x} {y} {z}")
+}
+
+/// Writes a model of images in general places, and of tracks, each a list of images.
 fn model(folder: &Path, images: usize, tracks: &[Vec<usize>]) {
     fs::create_dir_all(folder).unwrap();
     let mut features = vec![Vec::new(); images];
     let mut points = String::from("# 3D point list\n");
     for (id, track) in (1..).zip(tracks) {
-        points += &format!("{id} 0.5 {id} 0 9 9 9 0.25");
+        points += &format!("{id} {} 9 9 9 0.25", place(id + 1000));
         for &image in track {
             points += &format!(" {} {}", image + 1, features[image].len());
             features[image].push(id);
@@ -22,11 +36,15 @@ fn model(folder: &Path, images: usize, tracks: &[Vec<usize>]) {
     }
     let mut list = String::from("# Image list\n");
     for (k, seen) in features.iter().enumerate() {
-        list += &format!("{} 1 0 0 0 {k} 0 0 1 {k}.jpg\n", k + 1);
+        list += &format!("{} 1 0 0 0 {} 1 {k}.jpg\n", k + 1, place(k));
         let seen: Vec<String> = seen.iter().map(|id| format!("1.5 2.5 {id}")).collect();
         list += &format!("{}\n", seen.join(" "));
     }
-    fs::write(folder.join("cameras.txt"), "1 PINHOLE 9 9 8 8 4 4\n").unwrap();
+    fs::write(
+        folder.join("cameras.txt"),
+        "1 PINHOLE 900 900 800 800 400 400\n",
+    )
+    .unwrap();
     fs::write(folder.join("images.txt"), list).unwrap();
     fs::write(folder.join("points3D.txt"), points).unwrap();
 }
@@ -40,73 +58,6 @@ fn glued() -> Vec<Vec<usize>> {
     tracks.push(vec![0, 6]);
     tracks.push(vec![0, 1, 7]);
     tracks
-}
-
-/// Frames of a stereo rig with a base line that is not known, of which left and right images see
-/// nothing in common: image 2 k is the left one of a frame, 2 k + 1 the right one.
-fn uncalibrated(folder: &Path, frames: usize) {
-    let side = |first: usize| (0..frames).map(move |frame| 2 * frame + first).collect();
-    let tracks: Vec<Vec<usize>> = (0..20).map(|k| side(k % 2)).collect();
-    model(folder, 2 * frames, &tracks);
-    let mut list = fs::read_to_string(folder.join("images.txt")).unwrap();
-    let mut lines = String::new();
-    for frame in 0..frames {
-        let (left, right) = (2 * frame + 1, 2 * frame + 2);
-        let name = format!("{}.jpg", left);
-        list = list.replace(&format!(" 1 {name}"), &format!(" 2 {name}"));
-        let pose = "1 0 0 0 0 0 0";
-        lines += &format!(
-            "{} 1 {pose} 2 CAMERA 1 {left} CAMERA 2 {right}\n",
-            frame + 1
-        );
-    }
-    let cameras = "1 PINHOLE 9 9 8 8 4 4\n2 PINHOLE 9 9 8 8 4 4\n";
-    fs::write(folder.join("cameras.txt"), cameras).unwrap();
-    fs::write(folder.join("images.txt"), list).unwrap();
-    fs::write(folder.join("rigs.txt"), "1 2 CAMERA 1 CAMERA 2 0\n").unwrap();
-    fs::write(folder.join("frames.txt"), lines).unwrap();
-}
-
-/// Three frames that turn tell the base line, and with it how both sides lie; two do not.
-#[test]
-fn unknown_base_lines_hold_models_together() {
-    let folder = tempfile::tempdir().unwrap();
-    for (frames, value, parts) in [(3, "solvable", 1), (2, "not-finite-solvable", 2)] {
-        let folder = folder.path().join(frames.to_string());
-        uncalibrated(&folder.join("model"), frames);
-        let options = ["model", "parts", "--min-views", "2"];
-        let split = run(&folder, "split", &[&options[..], &["--json"]].concat());
-        assert_eq!(split.code, i32::from(parts > 1), "{}", split.err);
-        let line = keeps_to("split", &split, &["program", "graph", "split", "whole"]).remove(0);
-        assert_eq!(line["base_lines"]["verdict"], value);
-        assert_eq!(line["positions"]["verdict"], "not-finite-solvable");
-        assert_eq!(line["whole"], parts == 1);
-        let found = line["split"]["parts"].as_array().unwrap();
-        assert_eq!(found.len(), parts, "{line}");
-        let images = if parts == 1 { 2 * frames } else { frames };
-        assert!(
-            found
-                .iter()
-                .all(|part| part["images"].as_array().unwrap().len() == images)
-        );
-        assert_eq!(line["joints"], json!([]));
-        let said = run(&folder, "split", &options);
-        assert!(
-            said.out
-                .contains("\n  base lines  1 unknown base line, the same in "),
-            "{}",
-            said.out
-        );
-        let why = "as frames share their base lines";
-        assert_eq!(said.out.contains(why), parts == 1);
-        let apart = run(
-            &folder,
-            "split",
-            &[&options[..], &["--no-rigs", "--json"]].concat(),
-        );
-        let line = &apart.json()[0];
-        assert_eq!((apart.code, line.get("base_lines")), (1, None));
-    }
 }
 
 fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
@@ -145,11 +96,21 @@ fn a_glued_model_is_taken_apart() {
     let at = folder.path();
     model(&at.join("model"), 8, &glued());
     let before = files(&at.join("model"));
-    let found = run(at, "split", &["model", "out", "--json"]);
+    let three = ["--min-views", "3"];
+    let found = run(
+        at,
+        "split",
+        &[&["model", "out", "--json"], &three[..]].concat(),
+    );
     assert_eq!(found.code, 1, "{}", found.err);
     assert_eq!(files(&at.join("model")), before);
-    let line = keeps_to("split", &found, &["program", "graph", "split", "whole"]).remove(0);
+    let line = keeps_to("split", &found, &["program", "freedom", "split", "whole"]).remove(0);
     assert_eq!(line["whole"], false);
+    // The scale of the other cluster, and where the last image is, but for the two directions of its point.
+    assert_eq!(
+        (&line["freedom"], &line["strength"]),
+        (&json!(5), &json!("proof"))
+    );
     let split = &line["split"];
     let parts = split["parts"].as_array().unwrap();
     let images = |k: usize| parts[k]["images"].clone();
@@ -159,18 +120,16 @@ fn a_glued_model_is_taken_apart() {
     assert_eq!(parts[0]["observations"], 42);
     assert_eq!(
         split["shared"],
-        json!([{"image": "3.jpg", "components": [1, 2]}])
+        json!([{"image": "3.jpg", "parts": [1, 2]}])
     );
     assert_eq!(split["outside"], json!(["7.jpg"]));
     assert_eq!(
         (&split["points_cut"], &split["points_left_out"]),
         (&json!(1), &json!(1))
     );
-    assert_eq!(line["joints"][0]["meaning"], "relative scale");
-    assert_eq!(
-        names(&at.join("out")),
-        ["001", "002", "page.html", "parts.tsv"]
-    );
+    let free = json!([{"between": [1, 2], "freedom": 1, "meaning": "scale about image 3.jpg"}]);
+    assert_eq!(line["free"], free);
+    assert_eq!(names(&at.join("out")), ["001", "002", "parts.tsv"]);
     let table = fs::read_to_string(at.join("out/parts.tsv")).unwrap();
     assert_eq!(table.lines().nth(1), Some("001\t4\t11\t42\t3.jpg"));
     // A part is one part.
@@ -183,15 +142,16 @@ fn a_glued_model_is_taken_apart() {
     }
     let points = fs::read_to_string(at.join("out/001/points3D.txt")).unwrap();
     assert!(
-        points.contains("\n1 0.5 1 0 9 9 9 0.25 1 0 2 0 3 0 4 0\n"),
+        points.contains(&format!("\n1 {} 9 9 9 0.25 1 0 2 0 3 0 4 0\n", place(1001))),
         "{points}"
     );
     assert!(
-        points.contains("\n22 0.5 22 0 9 9 9 -1 1 11 2 10\n"),
+        points.contains(&format!("\n22 {} 9 9 9 -1 1 11 2 10\n", place(1022))),
         "{points}"
     );
-    let text = run(at, "split", &["model", "out"]).out;
+    let text = run(at, "split", &[&["model", "out"], &three[..]].concat()).out;
     for line in [
+        "  free        parts 1 and 2: scale about image 3.jpg",
         "  written     2 models in ",
         "    001: 4 images, 11 points (0.jpg to 3.jpg)",
         "  hinge       3.jpg is in 1, 2",
@@ -200,8 +160,6 @@ fn a_glued_model_is_taken_apart() {
     ] {
         assert!(text.contains(line), "{line}: {text}");
     }
-    let page = fs::read_to_string(at.join("out/page.html")).unwrap();
-    assert!(page.starts_with("<!DOCTYPE html>") && page.contains("3.jpg"));
 }
 
 #[test]
@@ -232,14 +190,159 @@ fn what_is_whole_stays_whole() {
             without_comments(&whole[name])
         );
     }
-    // Points of two images hold nothing together, unless they are asked to.
+    // Points of two images hold together as others do, unless they are not asked to.
     let mut tracks = glued();
     tracks.pop();
     tracks.push(vec![1, 5]);
     model(&at.join("pairs"), 7, &tracks);
-    assert_eq!(run(at, "split", &["pairs", "out"]).code, 1);
-    let found = run(at, "split", &["pairs", "out", "--min-views", "2"]);
-    assert_eq!(found.code, 0, "{}", found.out);
+    assert_eq!(run(at, "split", &["pairs", "out"]).code, 0);
+    let found = run(at, "split", &["pairs", "out", "--min-views", "3"]);
+    assert_eq!(found.code, 1, "{}", found.out);
+}
+
+/// Two groups of four images, each with points of its own, and what holds them against each other: tracks, at places.
+fn groups(folder: &Path, between: &[(Vec<usize>, String)]) {
+    let mut tracks = vec![vec![0, 1, 2, 3]; 10];
+    tracks.extend(vec![vec![4, 5, 6, 7]; 10]);
+    tracks.extend(between.iter().map(|(track, _)| track.clone()));
+    model(folder, 8, &tracks);
+    let mut points = fs::read_to_string(folder.join("points3D.txt")).unwrap();
+    for (id, (_, at)) in (21..).zip(between) {
+        points = points.replace(
+            &format!("\n{id} {} ", place(id + 1000)),
+            &format!("\n{id} {at} "),
+        );
+    }
+    fs::write(folder.join("points3D.txt"), points).unwrap();
+}
+
+/// Nothing but two points holds two groups of six images: the one turns about the line through them.
+#[test]
+#[ignore = "needs data"]
+fn a_group_turns_about_two_points() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let two = data().join("turn4/given/two2");
+    let words = [
+        "split",
+        two.to_str().unwrap(),
+        at.to_str().unwrap(),
+        "--json",
+    ];
+    let found = verify(&words);
+    assert_eq!(found.code, 1, "{}", found.err);
+    let line = keeps_to("split", &found, &["freedom", "softest"]).remove(0);
+    assert_eq!(
+        (&line["freedom"], &line["strength"]),
+        (&json!(1), &json!("proof"))
+    );
+    let meaning = "turns about the line through points 36 and 37";
+    assert_eq!(
+        line["free"],
+        json!([{"between": [1, 2], "freedom": 1, "meaning": meaning}])
+    );
+    assert!(line["softest"]["pixels"].as_f64().unwrap() < 1e-10);
+    assert_eq!(line["split"]["parts"].as_array().unwrap().len(), 2);
+}
+
+/// Three points on a line are a hinge, whether their numbers say so or miss it by rounding. Off the line they hold.
+#[test]
+fn hinges_on_a_line_are_free() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let all: Vec<usize> = (0..8).collect();
+    let line = |off: &str| -> Vec<(Vec<usize>, String)> {
+        let points = ["1 2 3", "2 3 5", &format!("3 4 7{off}")].map(str::to_owned);
+        points.map(|point| (all.clone(), point)).into()
+    };
+    for (off, freedom, code) in [("", 1, 1), (".000000000001", 0, 1), (".5", 0, 0)] {
+        let name = format!("at{}", off.len());
+        groups(&at.join(&name), &line(off));
+        let out = format!("{name}-out");
+        let found = run(at, "split", &[&name, &out, "--json"]);
+        assert_eq!(found.code, code, "{off}: {}{}", found.out, found.err);
+        let said = &found.json()[0];
+        assert_eq!(
+            (&said["freedom"], &said["strength"]),
+            (&json!(freedom), &json!("proof")),
+            "{off}"
+        );
+        assert_eq!(said["softest"]["rounding"], code == 1, "{said}");
+        assert_eq!(said["whole"], code == 0);
+        let text = run(at, "split", &[&name, &out]).out;
+        assert_eq!(
+            text.contains("free within rounding"),
+            freedom == 0 && code == 1,
+            "{text}"
+        );
+    }
+}
+
+/// Images of two groups at one place say nothing of the scale between these, and neither do points that both see; a
+/// point on a base line neither.
+#[test]
+fn shared_places_leave_the_scale_free() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let both = |count: usize| -> Vec<(Vec<usize>, String)> {
+        (0..count).map(|k| (vec![3, 4], place(500 + k))).collect()
+    };
+    groups(&at.join("model"), &both(6));
+    let images = at.join("model/images.txt");
+    let text = fs::read_to_string(&images).unwrap();
+    fs::write(
+        &images,
+        text.replace(
+            &format!("5 1 0 0 0 {} 1", place(4)),
+            &format!("5 1 0 0 0 {} 1", place(3)),
+        ),
+    )
+    .unwrap();
+    let found = run(at, "split", &["model", "out", "--json"]);
+    assert_eq!(found.code, 1, "{}", found.err);
+    let line = &found.json()[0];
+    assert_eq!(
+        (&line["freedom"], &line["loose_points"]),
+        (&json!(1), &json!(6))
+    );
+    assert_eq!(line["free"][0]["meaning"], "scale about image 3.jpg");
+    assert_eq!(line["split"]["parts"].as_array().unwrap().len(), 2);
+    // One point more that both groups know fixes it.
+    let mut more = both(6);
+    more.push(((0..8).collect(), place(600)));
+    groups(&at.join("model"), &more);
+    let text = fs::read_to_string(&images).unwrap();
+    fs::write(
+        &images,
+        text.replace(
+            &format!("5 1 0 0 0 {} 1", place(4)),
+            &format!("5 1 0 0 0 {} 1", place(3)),
+        ),
+    )
+    .unwrap();
+    assert_eq!(run(at, "split", &["model", "out"]).code, 0);
+}
+
+/// A model of two images has points of two images alone.
+#[test]
+fn two_images_are_a_model() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    model(&at.join("model"), 2, &vec![vec![0, 1]; 8]);
+    assert_eq!(run(at, "split", &["model", "out"]).code, 0);
+    let found = run(at, "split", &["model", "out", "--min-views", "3"]);
+    assert_eq!(found.code, 1, "{}", found.err);
+    assert!(
+        found.out.contains("say --min-views 2 to count them"),
+        "{}",
+        found.out
+    );
+    // Four points leave a motion of the one image against the other.
+    model(&at.join("few"), 2, &vec![vec![0, 1]; 4]);
+    assert_eq!(
+        run(at, "split", &["few", "out", "--json"]).json()[0]["freedom"],
+        1
+    );
 }
 
 /// Several features of one image at a point are one view, as they were to the mapper.
@@ -252,10 +355,8 @@ fn a_point_may_have_several_features_in_an_image() {
     let found = run(at, "split", &["model", "out", "--json"]);
     assert_eq!(found.code, 0, "{}", found.out);
     let line = &found.json()[0];
-    assert_eq!(line["tracks"]["observations"], 30);
+    assert_eq!(line["observations"], 30);
     assert_eq!(line["split"]["parts"][0]["observations"], 40);
-    let note = "10 points with several features in one image: one view each";
-    assert_eq!(line["notes"], json!([note]));
     // Two features of one image are not two images.
     model(&at.join("twice"), 3, &vec![vec![0, 0, 1]; 10]);
     assert_eq!(run(at, "split", &["twice", "out"]).code, 1);
@@ -292,13 +393,13 @@ fn folders_are_kept_apart() {
     let tracks = vec![vec![0, 1, 2, 3]; 10];
     model(&at.join("small"), 4, &tracks);
     assert_eq!(run(at, "split", &["small", "out"]).code, 0);
-    assert_eq!(names(&at.join("out")), ["001", "page.html", "parts.tsv"]);
+    assert_eq!(names(&at.join("out")), ["001", "parts.tsv"]);
     assert_eq!(files(&at.join("model")), before);
     // A damaged model leaves the folder as it was.
     let images = fs::read_to_string(at.join("small/images.txt")).unwrap();
     fs::write(at.join("small/images.txt"), &images[..images.len() - 8]).unwrap();
     assert_eq!(run(at, "split", &["small", "out"]).code, 2);
-    assert_eq!(names(&at.join("out")), ["001", "page.html", "parts.tsv"]);
+    assert_eq!(names(&at.join("out")), ["001", "parts.tsv"]);
     assert_eq!(names(at), ["mine", "model", "out", "small"]);
 }
 
@@ -308,7 +409,10 @@ fn two_models_share_what_fixes_them() {
     let at = folder.path();
     let whole = |images: &[usize]| vec![images.to_vec(); 10];
     model(&at.join("glued"), 8, &glued());
-    assert_eq!(run(at, "split", &["glued", "parts"]).code, 1);
+    assert_eq!(
+        run(at, "split", &["glued", "parts", "--min-views", "3"]).code,
+        1
+    );
     let found = run(at, "merge", &["parts/001", "parts/002", "--json"]);
     assert_eq!(found.code, 1, "{}", found.err);
     let line = keeps_to(
@@ -392,7 +496,11 @@ fn write_part(folder: &Path, images: &[usize], tracks: &[Vec<usize>]) {
         let seen: Vec<String> = seen.iter().map(|id| format!("1 2 {id}")).collect();
         format!("{} 1 0 0 0 0 0 0 1 {v}.jpg\n{}\n", v + 1, seen.join(" "))
     });
-    fs::write(folder.join("cameras.txt"), "1 PINHOLE 9 9 8 8 4 4\n").unwrap();
+    fs::write(
+        folder.join("cameras.txt"),
+        "1 PINHOLE 900 900 800 800 400 400\n",
+    )
+    .unwrap();
     fs::write(folder.join("images.txt"), lines.collect::<String>()).unwrap();
     fs::write(folder.join("points3D.txt"), points).unwrap();
 }
@@ -403,7 +511,11 @@ fn named_model(folder: &Path, images: &[String]) {
     let lines = (1..)
         .zip(images)
         .map(|(id, name)| format!("{id} 1 0 0 0 0 0 0 1 {name}\n\n"));
-    fs::write(folder.join("cameras.txt"), "1 PINHOLE 9 9 8 8 4 4\n").unwrap();
+    fs::write(
+        folder.join("cameras.txt"),
+        "1 PINHOLE 900 900 800 800 400 400\n",
+    )
+    .unwrap();
     fs::write(folder.join("images.txt"), lines.collect::<String>()).unwrap();
     fs::write(folder.join("points3D.txt"), "").unwrap();
 }

@@ -154,7 +154,7 @@ def split(verify, path):
         for k, model in enumerate(models):
             (folder / f"model{k}").mkdir()
             model.write_binary(str(folder / f"model{k}"))
-            line = asked(verify, "split", str(folder / f"model{k}"), str(folder / f"parts{k}"))["split"]
+            line = asked(verify, "split", str(folder / f"model{k}"), str(folder / f"parts{k}"), "--min-views", "3")["split"]
             for part in line["parts"]:
                 read = pycolmap.Reconstruction(str(folder / f"parts{k}" / part["folder"]))
                 assert names(read) == sorted(part["images"])

@@ -88,7 +88,7 @@ def main():
                 at, out = os.path.join(folder, "model"), os.path.join(folder, "out")
                 os.mkdir(at)
                 write(at)
-                run = subprocess.run([arguments.verify, "split", at, out, "--json"], capture_output=True, text=True)
+                run = subprocess.run([arguments.verify, "split", at, out, "--min-views", "3", "--json"], capture_output=True, text=True)
                 assert run.returncode in (0, 1), run.stderr
                 split = json.loads(run.stdout)["split"]
                 parts = split["parts"]
@@ -104,7 +104,7 @@ def main():
             model(sides, base_line).write_binary(at)
             # Without rigs one common image leaves the scale free, so that there are two parts.
             options = ["--no-rigs"] if base_line else []
-            subprocess.run([arguments.verify, "split", at, out, *options], capture_output=True)
+            subprocess.run([arguments.verify, "split", at, out, "--min-views", "3", *options], capture_output=True)
             parts = [os.path.join(out, part) for part in ("001", "002")]
             run = subprocess.run([arguments.verify, "merge", *parts, "--json"], capture_output=True, text=True)
             found = json.loads(run.stdout)

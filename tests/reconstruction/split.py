@@ -55,7 +55,7 @@ def take_apart(verify, scene, model, folder, as_text, tally):
     os.mkdir(whole)
     (model.write_text if as_text else model.write_binary)(whole)
     before = files(whole)
-    run = subprocess.run([verify, "split", whole, parts, "--json"], capture_output=True, text=True)
+    run = subprocess.run([verify, "split", whole, parts, "--min-views", "3", "--json"], capture_output=True, text=True)
     if run.returncode not in (0, 1):
         sys.exit(f"verify split: {run.stderr}")
     assert files(whole) == before, "the model was written to"

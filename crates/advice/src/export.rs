@@ -1,13 +1,13 @@
 //! Components as files that COLMAP takes, tables of them, and the commands that come next.
 
-use crate::folder::paths;
+use crate::folder::{ensure_own, is_called, paths};
 use crate::named::{Export, Joint};
 use crate::task::{Task, number};
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Result, ensure};
 use std::collections::BTreeSet;
 use std::fs;
 use std::io::{BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use viewcert::wording::printable;
 use viewcert_session::Outputs;
 
@@ -34,54 +34,25 @@ struct Exported {
 /// # Errors
 /// What is in the way.
 pub(crate) fn check(folder: &Path) -> Result<()> {
-    let Ok(found) = fs::symlink_metadata(folder) else {
-        return Ok(());
-    };
-    let name = folder.display();
-    ensure!(
-        found.is_dir(),
-        "export {name}: this is not a folder; name another place"
-    );
-    if let Some(foreign) = foreign(folder).with_context(|| format!("export {name}"))? {
-        bail!(
-            "export {name}: {} is there, which no export has written; name another folder",
-            foreign.display()
-        );
-    }
-    Ok(())
-}
-
-/// Something in a folder that an export does not write.
-fn foreign(folder: &Path) -> std::io::Result<Option<PathBuf>> {
-    let entries: Vec<PathBuf> = paths(folder)?;
-    let table = fs::read_to_string(folder.join(TABLES[0])).unwrap_or_default();
-    if !entries.is_empty() && table.lines().next() != Some(&HEAD.join("\t")) {
-        return Ok(entries.into_iter().next());
-    }
-    let is = |path: &Path, names: &[&str]| {
-        let name = path.file_name().and_then(|name| name.to_str());
-        name.is_some_and(|name| names.contains(&name))
-    };
-    for path in entries {
-        if is(&path, &TABLES) && path.is_file() {
-            continue;
+    ensure_own("export", folder, (TABLES[0], &HEAD), |path| {
+        if is_called(path, &TABLES) && path.is_file() {
+            return Ok(None);
         }
-        if !is(&path, &[COMPONENTS]) || !path.is_dir() || path.is_symlink() {
-            return Ok(Some(path));
+        if !is_called(path, &[COMPONENTS]) || !path.is_dir() || path.is_symlink() {
+            return Ok(Some(path.to_owned()));
         }
-        for part in paths(&path)? {
+        for part in paths(path)? {
             if !part.is_dir() || part.is_symlink() {
                 return Ok(Some(part));
             }
-            let other = paths(&part)?
-                .into_iter()
-                .find(|file| !is(file, &LISTS) || !file.is_file());
+            let mut files = paths(&part)?.into_iter();
+            let other = files.find(|file| !is_called(file, &LISTS) || !file.is_file());
             if other.is_some() {
                 return Ok(other);
             }
         }
-    }
-    Ok(None)
+        Ok(None)
+    })
 }
 
 /// Writes the folder, whole or not at all.

@@ -1,6 +1,6 @@
 //! Folders that a command fills with what it has found, and replaces as a whole.
 
-use anyhow::{Result, ensure};
+use anyhow::{Context, Result, bail, ensure};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -35,6 +35,52 @@ pub(crate) fn ensure_outside(
         );
     }
     Ok(())
+}
+
+/// Refuses a folder that holds anything but an earlier run of the command, which is known by the first line of its table.
+/// `foreign` finds what such a run does not write, in an entry of the folder.
+///
+/// # Errors
+/// What is in the way.
+pub(crate) fn ensure_own(
+    command: &str,
+    folder: &Path,
+    (table, head): (&str, &[&str]),
+    foreign: impl Fn(&Path) -> std::io::Result<Option<PathBuf>>,
+) -> Result<()> {
+    let Ok(found) = fs::symlink_metadata(folder) else {
+        return Ok(());
+    };
+    let name = folder.display();
+    ensure!(
+        found.is_dir(),
+        "{command} {name}: this is not a folder; name another place"
+    );
+    let first = || -> std::io::Result<Option<PathBuf>> {
+        let entries = paths(folder)?;
+        let text = fs::read_to_string(folder.join(table)).unwrap_or_default();
+        if text.lines().next() != Some(&head.join("\t")) {
+            return Ok(entries.into_iter().next());
+        }
+        let found = entries
+            .iter()
+            .map(|path| foreign(path))
+            .find(|found| !matches!(found, Ok(None)));
+        found.unwrap_or(Ok(None))
+    };
+    if let Some(foreign) = first().with_context(|| format!("{command} {name}"))? {
+        bail!(
+            "{command} {name}: {} is there, which no {command} has written; name another folder",
+            foreign.display()
+        );
+    }
+    Ok(())
+}
+
+/// Whether a path has one of some names.
+pub(crate) fn is_called(path: &Path, names: &[&str]) -> bool {
+    let name = path.file_name().and_then(|name| name.to_str());
+    name.is_some_and(|name| names.contains(&name))
 }
 
 /// A path without links, as far as it is there.

@@ -45,7 +45,7 @@ pub use suggest::{
     Candidate, Near, Nearness, Reason, SuggestedMatch, Suggestion, Tried, gap, suggest,
     suggest_matches,
 };
-pub use task::{Weak, named_joints};
+pub use task::Weak;
 pub use viewcert_formats::OtherPair;
 pub use weak::{WeakImage, WeakPair, Why, weak_images, weak_pairs};
 

@@ -431,11 +431,20 @@ pub fn of_tracks(
     let found = Parts::new(graph, &verdict);
     let components = parts.each_ref().map(|part| home(&found, &verdict, part));
     merge.by = "tracks";
-    merge.determined |= components[0].is_some() && components[0] == components[1];
+    let is_connected = are_connected(input, &parts, cameras);
+    let is_one = components[0].is_some() && components[0] == components[1];
+    merge.determined |= is_one && is_connected;
     merge.suggestions = Some(Vec::new());
     if merge.determined {
         merge.freedom = Some(0);
         merge.free = free(0);
+        return Ok((merge, verdict));
+    }
+    if is_one {
+        // Tracks are decided with known rotations, and nothing says this one.
+        merge.freedom = None;
+        merge.free =
+            "rotation: no verified pair and no image leads from the one to the other".to_owned();
         return Ok((merge, verdict));
     }
     let task = Task::new(input, &verdict, seed, watch.clone());
@@ -445,7 +454,6 @@ pub fn of_tracks(
         let [one, other] = joint.between.map(Some);
         between == [one, other] || between == [other, one]
     });
-    let is_connected = are_connected(input, &parts, cameras);
     merge.freedom = match joint {
         Some(joint) => Some(joint.freedom),
         None if !merge.shared_images.is_empty() => merge.freedom,

@@ -1,30 +1,20 @@
-//! A model taken apart where its tracks do not hold it together: one model for each component.
+//! A model taken apart where its observations do not hold it together: one model for each part.
 //!
-//! In: a model of COLMAP, the camera-point graph of its tracks, and the verdict on that. Out: for
-//! each component with two cameras or more a copy of what its images see
-//! ([`Model::of_images`](viewcert_formats::Model::of_images)). A mapper that solves for all positions at once returns one model
-//! in which the components are placed against each other at a scale that nothing supports; each of
-//! them by itself is what its tracks determine (docs/reconstruction.md). Nothing is computed anew,
-//! and the model is not touched.
+//! In: a model of COLMAP, and what its observations hold at its poses ([`Held`]). Out: what is free, in words, and for each
+//! part a copy of what its images see ([`Model::of_images`]). Nothing is computed anew, and the model is not touched.
 
-use crate::folder::{ensure_outside, paths, resolved};
-use crate::named::Names;
-use crate::parts::Parts;
-use crate::task::number;
-use anyhow::{Context, Result, bail, ensure};
+use crate::folder::{ensure_outside, ensure_own, is_called, paths, resolved};
+use anyhow::{Result, ensure};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::{Path, PathBuf};
-use viewcert::Verdict;
-use viewcert_formats::NamedGraph;
-use viewcert_formats::model::{Model, is_file_of_model};
+use std::path::Path;
+use viewcert::here::finished::{Held, Hinge, Motion};
+use viewcert_formats::model::{Model, Posed, is_file_of_model};
 use viewcert_session::Outputs;
 
 /// The table of parts in the folder.
 const TABLE: &str = "parts.tsv";
-/// The page in the folder.
-pub const PAGE: &str = "page.html";
 /// The first line of the table, by which an earlier run is known.
 const HEAD: [&str; 5] = ["part", "images", "points", "observations", "shared"];
 
@@ -33,9 +23,9 @@ const HEAD: [&str; 5] = ["part", "images", "points", "observations", "shared"];
 pub struct Split {
     /// The folder that holds the parts.
     pub folder: String,
-    /// The parts, in the order of the components.
+    /// The parts, larger ones first.
     pub parts: Vec<Piece>,
-    /// The images of several parts, and the components that these are.
+    /// The images of several parts, and which these are.
     pub shared: Vec<Shared>,
     /// The images of no part.
     pub outside: Vec<String>,
@@ -45,19 +35,9 @@ pub struct Split {
     pub points_left_out: usize,
 }
 
-impl Split {
-    /// How many images the model has.
-    pub fn image_count(&self) -> usize {
-        let parts = self.parts.iter().flat_map(|part| &part.images);
-        parts.chain(&self.outside).collect::<BTreeSet<_>>().len()
-    }
-}
-
 /// A part of a model: a model of its own.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Piece {
-    /// The component.
-    pub component: usize,
     /// Its folder.
     pub folder: String,
     /// Its images.
@@ -73,8 +53,65 @@ pub struct Piece {
 pub struct Shared {
     /// The image.
     pub image: String,
-    /// The components.
-    pub components: Vec<usize>,
+    /// The parts, counted from 1.
+    pub parts: Vec<usize>,
+}
+
+/// What is free between two parts.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Free {
+    /// The parts, counted from 1.
+    pub between: [usize; 2],
+    /// How many motions.
+    pub freedom: usize,
+    /// These in words.
+    pub meaning: String,
+}
+
+impl Free {
+    /// The motions of a model, in words.
+    pub fn of(held: &Held, model: &Model, posed: &Posed) -> Vec<Self> {
+        let free = held.joints.iter().map(|joint| Self {
+            between: joint.parts.map(|part| part + 1),
+            freedom: joint.freedom,
+            meaning: meaning(joint, model, posed),
+        });
+        free.collect()
+    }
+}
+
+/// A motion in words, by what stays where it is.
+fn meaning(joint: &Hinge, model: &Model, posed: &Posed) -> String {
+    let images = joint
+        .images
+        .iter()
+        .map(|&v| format!("image {}", model.images[v as usize].name));
+    let points: Vec<u64> = joint
+        .points
+        .iter()
+        .map(|&k| posed.ids[k as usize])
+        .collect();
+    let still = images
+        .chain(points.iter().map(|id| format!("point {id}")))
+        .next();
+    let about = still
+        .as_ref()
+        .map_or_else(String::new, |still| format!(" about {still}"));
+    match (joint.motion, &points[..]) {
+        (Motion::Turn, [a, b]) => format!("turns about the line through points {a} and {b}"),
+        (Motion::Turn, _) => "turns about a line".to_owned(),
+        (Motion::Scale, _) => format!("scale{about}"),
+        (Motion::Slide, _) => "slides along a line".to_owned(),
+        (Motion::Screw, _) => "turns about a line and slides along it".to_owned(),
+        (Motion::Spiral, _) => format!("turns and scales{about}"),
+        (Motion::Several, _) => match (joint.freedom, still) {
+            (7, _) => "everything: rotation, translation and scale".to_owned(),
+            (6, None) => "rotation and translation, or scale with a part of them".to_owned(),
+            (4, Some(still)) => format!("turns about {still} in every direction, and scale"),
+            (count, Some(still)) => format!("{count} motions, which leave {still} where it is"),
+            (count, None) => format!("{count} motions"),
+        },
+    }
 }
 
 /// Refuses a folder that holds anything but an earlier run of this, that holds the model, or that
@@ -84,172 +121,100 @@ pub struct Shared {
 /// What is in the way.
 pub fn check(folder: &Path, model: &Path) -> Result<()> {
     let name = folder.display();
-    let inputs = [model.to_owned()];
-    ensure_outside("split", folder, &inputs, &[])?;
+    ensure_outside("split", folder, &[model.to_owned()], &[])?;
     ensure!(
         !resolved(folder).starts_with(resolved(model)),
         "split {name}: this is in the folder of the model, where nothing is ever written; name another \
          folder"
     );
-    let Ok(found) = fs::symlink_metadata(folder) else {
-        return Ok(());
-    };
-    ensure!(
-        found.is_dir(),
-        "split {name}: this is not a folder; name another place"
-    );
-    if let Some(foreign) = foreign(folder).with_context(|| format!("split {name}"))? {
-        bail!(
-            "split {name}: {} is there, which no split has written; name another folder",
-            foreign.display()
-        );
-    }
-    Ok(())
-}
-
-/// Something in a folder that is not written here.
-fn foreign(folder: &Path) -> std::io::Result<Option<PathBuf>> {
-    let entries = paths(folder)?;
-    let table = fs::read_to_string(folder.join(TABLE)).unwrap_or_default();
-    if !entries.is_empty() && table.lines().next() != Some(&HEAD.join("\t")) {
-        return Ok(entries.into_iter().next());
-    }
-    for path in entries {
-        let name = path.file_name().and_then(|name| name.to_str());
-        if path.is_file() && name.is_some_and(|name| [TABLE, PAGE].contains(&name)) {
-            continue;
+    ensure_own("split", folder, (TABLE, &HEAD), |path| {
+        if is_called(path, &[TABLE]) && path.is_file() {
+            return Ok(None);
         }
+        let name = path.file_name().and_then(|name| name.to_str());
         let is_number = name.is_some_and(|name| name.bytes().all(|byte| byte.is_ascii_digit()));
         if !is_number || !path.is_dir() || path.is_symlink() {
-            return Ok(Some(path));
+            return Ok(Some(path.to_owned()));
         }
-        let is_ours = |file: &PathBuf| {
+        let is_ours = |file: &Path| {
             let name = file.file_name().and_then(|name| name.to_str());
             file.is_file() && name.is_some_and(is_file_of_model)
         };
-        if let Some(other) = paths(&path)?.into_iter().find(|file| !is_ours(file)) {
-            return Ok(Some(other));
-        }
-    }
-    Ok(None)
+        Ok(paths(path)?.into_iter().find(|file| !is_ours(file)))
+    })
 }
 
-/// Takes a model apart by the components of its camera-point graph, whose cameras have the names of
-/// the model's images, and writes the folder, whole or not at all. A camera that stands for several
-/// images of a frame, as these were taken at one place, is all of them; a frame without points is no
-/// part. Where frames hold all of it together, though components do not (`whole`), all images are one
-/// part. `page` writes what the parts are and why, for people. Linear in the model for each part.
+/// Writes the parts of a model into a folder, whole or not at all. Linear in the model for each part.
 ///
 /// # Errors
 /// Those of the file system; a folder with something else in it.
-pub fn split(
-    outputs: &Outputs,
-    folder: &Path,
-    model: &Model,
-    input: &NamedGraph,
-    verdict: &Verdict,
-    whole: bool,
-    page: impl FnOnce(&Split) -> Result<Vec<u8>>,
-) -> Result<Split> {
-    let names = Names::new(input);
-    let parts = Parts::new(&input.graph, verdict);
-    let cameras = names.images().end;
-    let has_points = |component: usize| verdict.components[component].edge_count() > 0;
-    let members = parts.parts.iter().filter(|part| has_points(part.component));
-    let members = members.map(|part| {
-        let images = part.nodes.iter().copied().filter(|&v| v < cameras);
-        (part.component, images.collect::<Vec<u32>>())
-    });
-    let members: Vec<(usize, Vec<u32>)> = if whole {
-        vec![(0, names.images().collect())]
-    } else {
-        members.filter(|(_, images)| images.len() > 1).collect()
-    };
-    let digits = members
-        .last()
-        .map_or(3, |(last, _)| number(*last).to_string().len().max(3));
-    let mut components: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
-    for (component, images) in &members {
-        for &v in images {
-            components.entry(v).or_default().push(number(*component));
-        }
+pub fn split(outputs: &Outputs, folder: &Path, model: &Model, parts: &[Vec<u32>]) -> Result<Split> {
+    let name = |v: u32| model.images[v as usize].name.to_string();
+    let digits = parts.len().to_string().len().max(3);
+    let mut parts_of: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+    for (part, images) in (1..).zip(parts) {
+        images
+            .iter()
+            .for_each(|&v| parts_of.entry(v).or_default().push(part));
     }
+    let shared = parts_of.iter().filter(|(_, of)| of.len() > 1);
+    let outside = (0..model.images.len() as u32).filter(|v| !parts_of.contains_key(v));
     let mut found = Split {
         folder: folder.display().to_string(),
         parts: Vec::new(),
-        shared: components
-            .iter()
-            .filter(|(_, of)| of.len() > 1)
-            .flat_map(|(&v, of)| names.all_of(v).map(|image| (image, of.clone())))
-            .map(|(image, components)| Shared { image, components })
+        shared: shared
+            .map(|(&v, of)| Shared {
+                image: name(v),
+                parts: of.clone(),
+            })
             .collect(),
-        outside: names
-            .images()
-            .filter(|v| !components.contains_key(v))
-            .flat_map(|v| names.all_of(v))
-            .collect(),
+        outside: outside.map(name).collect(),
         points_cut: 0,
         points_left_out: 0,
     };
-    let mut fates = Fates::default();
+    let places = model.images.iter().map(|image| image.id).zip(0..);
+    let places: BTreeMap<u32, u32> = places.collect();
+    let views: BTreeMap<u64, usize> = model
+        .points
+        .iter()
+        .map(|point| (point.id, point.track.len()))
+        .collect();
+    let mut is_cut: BTreeMap<u64, bool> = BTreeMap::new();
     outputs.folder(folder, |new| {
-        for (component, images) in &members {
-            let images = images.iter();
-            let images = images.flat_map(|&v| names.all_of(v).map(move |name| (name, v)));
-            let images: BTreeMap<String, u32> = images.collect();
-            let part = model.of_images(|image| images.get(&*image.name).copied());
-            let name = format!("{:0digits$}", number(*component));
-            fs::create_dir(new.join(&name))?;
-            part.write(&new.join(&name))?;
-            fates.note(model, &part);
+        for (number, images) in (1..).zip(parts) {
+            let inside: BTreeSet<u32> = images.iter().copied().collect();
+            let place = |id: u32| places.get(&id).copied().filter(|v| inside.contains(v));
+            let part = model.of_images(|image| place(image.id));
+            let folder = format!("{number:0digits$}");
+            fs::create_dir(new.join(&folder))?;
+            part.write(&new.join(&folder))?;
+            for point in &part.points {
+                *is_cut.entry(point.id).or_default() |= views[&point.id] > point.track.len();
+            }
+            let mut names: Vec<String> = images.iter().map(|&v| name(v)).collect();
+            names.sort();
             found.parts.push(Piece {
-                component: number(*component),
-                folder: name,
-                images: images.into_keys().collect(),
+                folder,
+                images: names,
                 points: part.points.len(),
                 observations: part.points.iter().map(|point| point.track.len()).sum(),
             });
         }
-        (found.points_cut, found.points_left_out) = fates.counts(model);
-        write_table(&new.join(TABLE), &found)?;
-        Ok(fs::write(new.join(PAGE), page(&found)?)?)
+        found.points_cut = is_cut.values().filter(|&&is_cut| is_cut).count();
+        found.points_left_out = model.points.len() - is_cut.len();
+        write_table(&new.join(TABLE), &found)
     })?;
     Ok(found)
-}
-
-/// What became of points.
-#[derive(Default)]
-struct Fates {
-    /// Points that are in a part, and whether they have lost views in one.
-    is_cut: BTreeMap<u64, bool>,
-}
-
-impl Fates {
-    fn note(&mut self, model: &Model, part: &Model) {
-        let mut whole = model.points.iter();
-        for point in &part.points {
-            // Points of a part are in the order of the model.
-            let of_model = whole.find(|of_model| of_model.id == point.id);
-            let lost = of_model.is_none_or(|of_model| of_model.track.len() > point.track.len());
-            *self.is_cut.entry(point.id).or_default() |= lost;
-        }
-    }
-
-    /// How many points have lost views, and how many are in no part.
-    fn counts(&self, model: &Model) -> (usize, usize) {
-        let cut = self.is_cut.values().filter(|&&is_cut| is_cut).count();
-        (cut, model.points.len() - self.is_cut.len())
-    }
 }
 
 fn write_table(path: &Path, split: &Split) -> Result<()> {
     let mut out = csv::WriterBuilder::new().delimiter(b'\t').from_path(path)?;
     out.write_record(HEAD)?;
-    for part in &split.parts {
+    for (number, part) in (1..).zip(&split.parts) {
         let shared = split
             .shared
             .iter()
-            .filter(|shared| shared.components.contains(&part.component));
+            .filter(|shared| shared.parts.contains(&number));
         let shared: Vec<&str> = shared.map(|shared| &*shared.image).collect();
         out.write_record([
             part.folder.clone(),

@@ -13,23 +13,6 @@ use viewcert::watch::Watch;
 use viewcert::{Strength, Verdict};
 use viewcert_formats::NamedGraph;
 
-/// The joints alone; none where displacements are given as numbers, which are in no general position.
-///
-/// # Errors
-/// Those of a decision.
-pub fn named_joints(
-    input: &NamedGraph,
-    verdict: &Verdict,
-    seed: u64,
-    watch: Watch,
-) -> Result<Advice> {
-    if verdict.displacements.vectors().is_some() {
-        return Ok(Advice::default());
-    }
-    let task = Task::new(input, verdict, seed, watch);
-    Ok(task.joints(&mut Shapes::default())?.0)
-}
-
 /// What a component may hang on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Weak {

@@ -15,6 +15,7 @@ pub mod at_cameras;
 pub mod claims;
 pub mod enclosure;
 pub mod linear;
+pub mod softness;
 pub mod table;
 
 use linear::{Doubles, Inverse, envelope_order};

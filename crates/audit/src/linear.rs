@@ -172,8 +172,7 @@ where
 pub struct Inverse<'a> {
     matrix: &'a SparseRows<f64>,
     columns: usize,
-    /// Of each row the entries from the first that is not zero.
-    factor: Vec<(usize, Vec<f64>)>,
+    factor: Factor,
     /// Singular values below are zero up to rounding.
     floor: f64,
 }
@@ -184,32 +183,13 @@ impl<'a> Inverse<'a> {
     /// # Errors
     /// M^T M cannot be factored at any shift, or values are not numbers.
     pub fn new(matrix: &'a SparseRows<f64>, columns: usize) -> Result<Self, AuditError> {
-        let gram = gram(matrix, columns);
-        let diagonal = gram.iter().filter_map(|(_, row)| row.last());
-        let largest = diagonal.fold(0.0, |most: f64, &x| if x <= most { most } else { x });
-        if !largest.is_finite() {
-            return Err(AuditError::NoConvergence);
-        }
-        let mut shifts = (-15..=-5).map(|k| largest * 10f64.powi(k));
-        let factor = shifts.find_map(|shift| factored(gram.clone(), shift));
+        let (factor, largest) = Factor::new(gram(matrix, columns))?;
         Ok(Self {
             matrix,
             columns,
-            factor: factor.ok_or(AuditError::NoFactor)?,
+            factor,
             floor: 1e-15 * largest.sqrt(),
         })
-    }
-
-    /// Solves for a right-hand side, in its place.
-    fn solve(&self, x: &mut [f64]) {
-        for (k, (from, row)) in self.factor.iter().enumerate() {
-            x[k] = (x[k] - dot(&row[..k - from], &x[*from..k])) / row[k - from];
-        }
-        for (k, (from, row)) in self.factor.iter().enumerate().rev() {
-            x[k] /= row[k - from];
-            let (head, tail) = x.split_at_mut(k);
-            add(&mut head[*from..], -tail[0], &row[..k - from]);
-        }
     }
 
     /// The `count` smallest singular values, rising, with orthonormal vectors, to a relative change of `settled`.
@@ -224,7 +204,7 @@ impl<'a> Inverse<'a> {
         let mut vectors: Columns = (0..size).map(&mut vector).collect();
         let mut values: Vec<f64> = vec![f64::INFINITY; size];
         for _ in 0..ITERATIONS {
-            vectors.par_iter_mut().for_each(|x| self.solve(x));
+            vectors.par_iter_mut().for_each(|x| self.factor.solve(x));
             orthonormal(&mut vectors);
             let image = |x: &Vec<f64>| {
                 let times = |row: &Vec<(usize, f64)>| row.iter().map(|&(k, y)| y * x[k]).sum();
@@ -261,6 +241,39 @@ impl<'a> Inverse<'a> {
     }
 }
 
+/// The Cholesky factor of a symmetric matrix with a shift, as small as the factor allows: of each row the entries from the
+/// first that is not zero.
+pub(crate) struct Factor(Vec<(usize, Vec<f64>)>);
+
+impl Factor {
+    /// The factor, and the largest entry of the diagonal. O(N^3) for N columns, less what stands before the first entries.
+    ///
+    /// # Errors
+    /// There is none at any shift, or values are not numbers.
+    pub(crate) fn new(matrix: Vec<(usize, Vec<f64>)>) -> Result<(Self, f64), AuditError> {
+        let diagonal = matrix.iter().filter_map(|(_, row)| row.last());
+        let largest = diagonal.fold(0.0, |most: f64, &x| if x <= most { most } else { x });
+        if !largest.is_finite() {
+            return Err(AuditError::NoConvergence);
+        }
+        let mut shifts = (-15..=-5).map(|k| largest * 10f64.powi(k));
+        let factor = shifts.find_map(|shift| factored(matrix.clone(), shift));
+        Ok((Self(factor.ok_or(AuditError::NoFactor)?), largest))
+    }
+
+    /// Solves for a right-hand side, in its place.
+    pub(crate) fn solve(&self, x: &mut [f64]) {
+        for (k, (from, row)) in self.0.iter().enumerate() {
+            x[k] = (x[k] - dot(&row[..k - from], &x[*from..k])) / row[k - from];
+        }
+        for (k, (from, row)) in self.0.iter().enumerate().rev() {
+            x[k] /= row[k - from];
+            let (head, tail) = x.split_at_mut(k);
+            add(&mut head[*from..], -tail[0], &row[..k - from]);
+        }
+    }
+}
+
 /// The Cholesky factor of a matrix with a shift; nothing if rounding leaves it not positive definite.
 fn factored(mut rows: Vec<(usize, Vec<f64>)>, shift: f64) -> Option<Vec<(usize, Vec<f64>)>> {
     for k in 0..rows.len() {
@@ -285,7 +298,7 @@ fn factored(mut rows: Vec<(usize, Vec<f64>)>, shift: f64) -> Option<Vec<(usize, 
 }
 
 /// Makes columns orthonormal, each with those before it, twice.
-fn orthonormal(columns: &mut Columns) {
+pub(crate) fn orthonormal(columns: &mut Columns) {
     for k in 0..columns.len() {
         let (head, tail) = columns.split_at_mut(k);
         for _ in 0..2 {
@@ -358,7 +371,7 @@ mod tests {
             prop_assert!((least[0] - values[0]).abs() < 1e-6 * values[7], "{least:?} {values:?}");
             prop_assume!(values[0] > 0.1);
             let mut x: Vec<f64> = (0..n).map(|k| k as f64).collect();
-            inverse.solve(&mut x);
+            inverse.factor.solve(&mut x);
             let image = times(&x);
             for (k, column) in matrix.iter().enumerate() {
                 prop_assert!((dot(column, &image) - k as f64).abs() < 1e-6);

@@ -11,6 +11,9 @@ use viewcert_formats::colmap::DatabaseFacts;
 /// The condition of whatever pairs of photographs say.
 pub(crate) const RIGHT: &str = "if every pair is right";
 
+/// The condition of whatever tracks of a model say.
+pub(crate) const TRACKS: &str = "if every track is right";
+
 /// The condition for what the input says of pairs or tracks.
 pub(crate) fn of(input: &NamedGraph) -> String {
     let focal = input.database.as_deref().map_or_else(String::new, focal);
@@ -29,8 +32,7 @@ pub(crate) fn of_photographs(input: &NamedGraph, model: Model) -> Option<String>
 /// The condition without focal lengths.
 pub(crate) fn if_right(input: &NamedGraph) -> String {
     let is_model = input.cameras.is_some() && input.database.is_none();
-    let tracks = "if every track is right";
-    if is_model { tracks } else { RIGHT }.to_owned()
+    if is_model { TRACKS } else { RIGHT }.to_owned()
 }
 
 /// What has to hold of optical axes for intrinsics to be found.

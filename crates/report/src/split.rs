@@ -1,32 +1,108 @@
-//! A model that was taken apart, for people and for programs.
+//! What a finished model's observations hold, and the parts that were written, for people and for programs.
 
-use super::json::{AnswerLine, GraphLine, write_line};
-use super::read::ReadLine;
-use super::tracks::{self, TrackLine};
-use super::{Report, condition, counted, text};
-use crate::advice::joints as write_joints;
-use crate::assumptions::BaseLines;
-use crate::page::{self, Foreword};
-use crate::scene::Scene;
-use crate::shown::{SHOWN, some_names};
+use super::json::write_line;
+use super::{condition, counted, text};
+use crate::shown::{SHOWN, rest, some_names};
 use serde::Serialize;
 use std::io::{self, Write};
+use std::time::Duration;
+use viewcert::here::finished::Held;
 use viewcert::wording::printable;
-use viewcert_advice::Advice;
-use viewcert_advice::split::{PAGE, Piece, Split};
+use viewcert_advice::split::{Free, Split};
+use viewcert_audit::softness::{ROUNDING, SHARE, Softness};
 
-/// The verdict on a model's tracks, and the parts that were written.
+/// What was found of a model.
 pub struct SplitReport<'a> {
-    /// The verdict on the camera-point graph.
-    pub report: Report<'a>,
+    /// The folder of the model.
+    pub model: String,
+    /// What to know of how it was read.
+    pub notes: Vec<String>,
+    /// How many points count.
+    pub points: usize,
+    /// In how many images each is at least.
+    pub least: usize,
+    /// How many observations they have.
+    pub observations: usize,
+    /// The images.
+    pub images: usize,
+    /// What the observations hold.
+    pub held: &'a Held,
+    /// What is free between parts.
+    pub free: &'a [Free],
+    /// How soft the model is, if it was measured.
+    pub softness: Option<Softness>,
     /// What was written.
     pub split: &'a Split,
+    /// How long it took.
+    pub time: Duration,
 }
 
 impl SplitReport<'_> {
-    /// Whether the model is one part that has all of its images.
+    /// Whether nothing is free, rounding included.
     pub fn is_whole(&self) -> bool {
-        self.split.parts.len() == 1 && self.split.outside.is_empty()
+        let is_one = self.split.parts.len() == 1 && self.split.outside.is_empty();
+        is_one && self.held.freedom.value == 0 && !self.is_soft()
+    }
+
+    /// Whether a motion of images changes no observation but by rounding.
+    fn is_soft(&self) -> bool {
+        self.softness
+            .is_some_and(|softness| softness.pixels < ROUNDING)
+    }
+
+    /// The answer.
+    fn answer(&self) -> String {
+        let strength = text::strength(self.held.freedom.strength);
+        let similarity = match self.held.is_scaled {
+            true => "rotation and translation of the whole",
+            false => "a similarity of the whole",
+        };
+        match (self.held.freedom.value, self.is_soft()) {
+            (0, false) => format!(
+                "fixed: no motion but {similarity} leaves all observations as they are {} ({strength}, intrinsics \
+                 known)",
+                condition::TRACKS
+            ),
+            (0, true) => format!(
+                "free within rounding: the exact numbers allow no motion but {similarity} ({strength}), and rounding \
+                 does (softest)"
+            ),
+            (count, _) => format!(
+                "free: {} of first order beside {similarity}, without a change of any observation ({strength}, intrinsics \
+                 known)",
+                counted(count, "motion")
+            ),
+        }
+    }
+
+    fn softest(&self) -> String {
+        match self.softness {
+            Some(softness) if softness.pixels.is_finite() => format!(
+                "{:.1e} pixels (floating point, intrinsics fixed): the largest change of an observation where images \
+                 move by {SHARE} of their spread{}",
+                softness.pixels,
+                if self.is_soft() {
+                    "; below 0.01 is rounding"
+                } else {
+                    ""
+                },
+            ),
+            Some(_) => "no motion of images to measure".to_owned(),
+            None => "not measured: too many images see points in common".to_owned(),
+        }
+    }
+
+    /// What follows.
+    fn why(&self) -> String {
+        match (self.split.parts.len(), self.split.outside.len()) {
+            (0, _) => "no two images are fixed against each other".to_owned(),
+            (1, 0) if self.is_whole() => "there is one part".to_owned(),
+            (1, 0) => "there is one part, and a bundle adjustment may bend it: more points have to hold it".to_owned(),
+            (1, count) => format!("there is one part; nothing fixes {} to it", counted(count, "image")),
+            (count, _) => format!(
+                "there are {count} parts; how they lie against each other in the model rests on no observation"
+            ),
+        }
     }
 
     /// Writes some lines for people.
@@ -34,41 +110,64 @@ impl SplitReport<'_> {
     /// # Errors
     /// Those of the writer.
     pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
-        let (report, split) = (&self.report, self.split);
-        writeln!(out, "{}", printable(&report.input.name))?;
-        writeln!(out, "  read as     {}", report.input.read)?;
-        for note in &report.input.notes {
+        let split = self.split;
+        writeln!(out, "{}", printable(&self.model))?;
+        for note in &self.notes {
             writeln!(out, "  note        {note}")?;
         }
-        if let Some(facts) = &report.input.tracks {
-            tracks::write_size(out, facts)?;
+        let points = counted(self.points, "point");
+        let observations = counted(self.observations, "observation");
+        writeln!(
+            out,
+            "  points      {points} in at least {} images: {observations}",
+            self.least
+        )?;
+        writeln!(out, "  images      {}", self.answer())?;
+        for free in self.free.iter().take(SHOWN) {
+            let [one, other] = free.between;
+            writeln!(
+                out,
+                "  free        parts {one} and {other}: {}",
+                free.meaning
+            )?;
         }
-        writeln!(out, "  positions   {}", text::answer(report))?;
-        if let Some(found) = report.scope.base_lines() {
-            writeln!(out, "  base lines  {}", found.words())?;
+        rest(out, self.free.len(), "--json lists them")?;
+        writeln!(out, "  softest     {}", self.softest())?;
+        let soft = self.softness.map_or(0, |softness| softness.soft_points);
+        if self.held.loose_points + soft > 0 {
+            writeln!(
+                out,
+                "  soft        {} with all rays on one line, {soft} as soft as rounding (floating point): they decide nothing",
+                counted(self.held.loose_points, "point")
+            )?;
         }
-        let count = counted(split.parts.len(), "model");
-        writeln!(out, "  written     {count} in {}", split.folder)?;
+        writeln!(
+            out,
+            "  written     {} in {}",
+            counted(split.parts.len(), "model"),
+            split.folder
+        )?;
         for part in split.parts.iter().take(SHOWN) {
-            writeln!(out, "    {}", self.piece(part))?;
+            let images = counted(part.images.len(), "image");
+            let (first, last) = (&part.images[0], &part.images[part.images.len() - 1]);
+            let points = counted(part.points, "point");
+            writeln!(
+                out,
+                "    {}: {images}, {points} ({first} to {last})",
+                part.folder
+            )?;
         }
-        if let Some(more) = split.parts.len().checked_sub(SHOWN + 1) {
-            writeln!(out, "    and {} more (parts.tsv)", more + 1)?;
-        }
-        write_joints(out, report.advice)?;
+        rest(out, split.parts.len(), "parts.tsv")?;
         for shared in split.shared.iter().take(SHOWN) {
-            let components = shared.components.iter().map(ToString::to_string);
-            let components: Vec<String> = components.collect();
+            let parts: Vec<String> = shared.parts.iter().map(ToString::to_string).collect();
             writeln!(
                 out,
                 "  hinge       {} is in {}",
                 shared.image,
-                components.join(", ")
+                parts.join(", ")
             )?;
         }
-        if let Some(more) = split.shared.len().checked_sub(SHOWN + 1) {
-            writeln!(out, "  hinge       and {} more (parts.tsv)", more + 1)?;
-        }
+        rest(out, split.shared.len(), "parts.tsv")?;
         if !split.outside.is_empty() {
             writeln!(out, "  in no part  {}", some_names(&split.outside))?;
         }
@@ -80,83 +179,11 @@ impl SplitReport<'_> {
             )?;
         }
         writeln!(out, "  because     {}", self.why())?;
-        writeln!(out, "  page        {}/{PAGE}", split.folder)?;
         writeln!(
             out,
             "  time        {}",
-            text::seconds(report.time.as_micros())
+            text::seconds(self.time.as_micros())
         )
-    }
-
-    /// Whether base lines that frames share make one part of what tracks alone do not hold together.
-    fn by_frames(&self) -> bool {
-        let found = self.report.scope.base_lines();
-        found.is_some_and(BaseLines::is_determined)
-    }
-
-    fn piece(&self, part: &Piece) -> String {
-        let ends = match (part.images.first(), part.images.last()) {
-            (Some(first), Some(last)) => format!("{first} to {last}"),
-            _ => String::new(),
-        };
-        format!(
-            "{}: {}, {} ({ends})",
-            part.folder,
-            counted(part.images.len(), "image"),
-            counted(part.points, "point"),
-        )
-    }
-
-    /// Why there are so many parts.
-    pub fn why(&self) -> String {
-        let all = counted(self.split.image_count(), "image");
-        let right = condition::of(self.report.input);
-        let without = match self.split.outside.len() {
-            0 => String::new(),
-            count => format!(
-                "; the tracks do not hold {} to any of it",
-                counted(count, "image")
-            ),
-        };
-        match self.split.parts.len() {
-            0 => "the tracks determine no two images against each other".to_owned(),
-            1 if self.by_frames() => format!(
-                "the tracks determine all {all} against each other {right}, as frames share their base \
-                 lines: there is one part"
-            ),
-            1 if without.is_empty() => {
-                format!(
-                    "the tracks determine all {all} against each other {right}: there is one part"
-                )
-            }
-            1 => format!("the tracks determine one part {right}{without}"),
-            count => format!(
-                "the tracks determine {count} parts, each in itself {right}, and leave free how these lie \
-                 against each other: how they do in the model rests on no track{without}"
-            ),
-        }
-    }
-
-    /// The page that says what the parts are, and why.
-    ///
-    /// # Errors
-    /// None that a model can cause.
-    pub fn page(&self) -> io::Result<Vec<u8>> {
-        let mut text = Vec::new();
-        self.write(&mut text)?;
-        let foreword = Foreword {
-            kind: "A model taken apart",
-            answer: (capital(&self.why()), self.is_whole()),
-            text: &String::from_utf8_lossy(&text),
-        };
-        let mut page = Vec::new();
-        page::write(
-            &mut page,
-            &self.report,
-            &Scene::of(&self.report, &[]),
-            Some(&foreword),
-        )?;
-        Ok(page)
     }
 
     /// Writes everything as one line of JSON.
@@ -164,53 +191,61 @@ impl SplitReport<'_> {
     /// # Errors
     /// Those of the writer.
     pub fn write_json(&self, out: &mut impl Write) -> io::Result<()> {
-        let report = &self.report;
-        let facts = report.input.cameras.zip(report.input.tracks.as_ref());
+        let freedom = self.held.freedom;
+        let softest = self.softness.filter(|softness| softness.pixels.is_finite());
         let line = Line {
-            graph: GraphLine::new(report.input, report.verdict),
-            read: ReadLine::from(&report.input.read),
-            notes: &report.input.notes,
-            tracks: facts.map(|(cameras, facts)| TrackLine::new(cameras, facts)),
-            positions: AnswerLine::from(report),
-            base_lines: report.scope.base_lines(),
-            joints: report.advice,
+            model: &self.model,
+            notes: &self.notes,
+            points: self.points,
+            min_views: self.least,
+            observations: self.observations,
+            images: self.images,
+            freedom: freedom.value,
+            strength: freedom.strength.name(),
+            error_log2: freedom.strength.error_log2(),
+            scaled: self.held.is_scaled,
+            free: self.free,
+            softest: softest.map(|softness| Softest {
+                pixels: softness.pixels,
+                rounding: self.is_soft(),
+            }),
+            loose_points: self.held.loose_points,
+            soft_points: self.softness.map(|softness| softness.soft_points),
             split: self.split,
             whole: self.is_whole(),
+            answer: self.answer(),
             why: self.why(),
-            seed: report.verdict.seed,
-            seconds: report.time.as_secs_f64(),
+            seconds: self.time.as_secs_f64(),
         };
         write_line(out, "split", &line)
     }
 }
 
-/// Words as a sentence.
-fn capital(words: &str) -> String {
-    let mut letters = words.chars();
-    let first = letters.next().map(char::to_uppercase);
-    first
-        .into_iter()
-        .flatten()
-        .chain(letters)
-        .chain(['.'])
-        .collect()
+#[derive(Serialize)]
+struct Softest {
+    pixels: f64,
+    rounding: bool,
 }
 
 #[derive(Serialize)]
 struct Line<'a> {
-    graph: GraphLine<'a>,
-    read: ReadLine<'a>,
+    model: &'a str,
     notes: &'a [String],
-    #[serde(skip_serializing_if = "Option::is_none")]
-    tracks: Option<TrackLine>,
-    positions: AnswerLine,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    base_lines: Option<&'a BaseLines>,
-    #[serde(flatten)]
-    joints: &'a Advice,
+    points: usize,
+    min_views: usize,
+    observations: usize,
+    images: usize,
+    freedom: usize,
+    strength: &'static str,
+    error_log2: Option<i64>,
+    scaled: bool,
+    free: &'a [Free],
+    softest: Option<Softest>,
+    loose_points: usize,
+    soft_points: Option<usize>,
     split: &'a Split,
     whole: bool,
+    answer: String,
     why: String,
-    seed: u64,
     seconds: f64,
 }

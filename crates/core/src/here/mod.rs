@@ -8,6 +8,7 @@
 mod centres;
 
 mod core;
+pub mod finished;
 mod focal;
 mod motion;
 mod rank;

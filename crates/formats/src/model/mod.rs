@@ -8,6 +8,7 @@
 //! ([`tracks`](crate::tracks)) of what is read here; this module decides nothing.
 
 mod fields;
+mod posed;
 mod records;
 
 use std::collections::{HashMap, HashSet};
@@ -21,6 +22,7 @@ use crate::error::{Fault, Place, Problem, ReadError};
 use crate::tracks::Frames;
 
 pub(crate) use fields::{Encoding, Fields, fields};
+pub use posed::{Lens, Posed};
 pub(crate) use records::{each_point, frames, images, known, part, rigs};
 
 /// A file of a model.

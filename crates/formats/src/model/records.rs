@@ -28,6 +28,28 @@ const NO_ERROR: f64 = -1.0;
 /// How many parameters the models of cameras have, by their numbers in COLMAP 4.2.
 const PARAMETERS: [usize; 18] = [3, 4, 4, 5, 8, 8, 12, 5, 4, 5, 12, 16, 4, 5, 3, 4, 6, 2];
 
+/// Models of cameras by the names that text has, in the order of their numbers.
+const MODELS: [&str; 18] = [
+    "SIMPLE_PINHOLE",
+    "PINHOLE",
+    "SIMPLE_RADIAL",
+    "RADIAL",
+    "OPENCV",
+    "OPENCV_FISHEYE",
+    "FULL_OPENCV",
+    "FOV",
+    "SIMPLE_RADIAL_FISHEYE",
+    "RADIAL_FISHEYE",
+    "THIN_PRISM_FISHEYE",
+    "RAD_TAN_THIN_PRISM_FISHEYE",
+    "SIMPLE_DIVISION",
+    "DIVISION",
+    "SIMPLE_FISHEYE",
+    "FISHEYE",
+    "EUCM",
+    "EQUIRECTANGULAR",
+];
+
 const IMAGE_HEAD: &str = "\
 # Image list with two lines of data per image:
 #   IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME
@@ -119,6 +141,67 @@ fn sensor(fields: &mut dyn Fields) -> Result<(Vec<u8>, u32), Fault> {
 /// Whether a type of sensors is that of cameras, in text or in bytes.
 pub(super) fn is_camera(kind: &[u8]) -> bool {
     kind == b"CAMERA" || kind == [0; 4]
+}
+
+/// A camera.
+pub(super) struct Camera {
+    /// The number of its model.
+    pub(super) model: usize,
+    pub(super) width: u64,
+    pub(super) parameters: Vec<f64>,
+}
+
+/// The cameras, by their numbers. O(bytes).
+pub(super) fn cameras(fields: &mut dyn Fields) -> Result<BTreeMap<u32, Camera>, Fault> {
+    let mut cameras = BTreeMap::new();
+    while fields.record()? {
+        let id = fields.short("the number of a camera")?;
+        let binary = fields.encoding() == Encoding::Binary;
+        let (model, width) = match binary {
+            true => {
+                let model = fields.short("the model of a camera")? as usize;
+                let width = fields.long("the width of a camera")? as u64;
+                fields.long("the height of a camera")?;
+                (Some(model), width)
+            }
+            false => {
+                let mut name = Vec::new();
+                fields.raw((0, 1), "the model of a camera", &mut name)?;
+                let name = String::from_utf8_lossy(&name);
+                let width = fields.long("the width of a camera")? as u64;
+                fields.long("the height of a camera")?;
+                (MODELS.iter().position(|&model| model == name), width)
+            }
+        };
+        let Some((model, &count)) = model.and_then(|model| Some((model, PARAMETERS.get(model)?)))
+        else {
+            return Err(fields.corrupt(format!("camera {id} has a model that is not known")));
+        };
+        let parameters = (0..count).map(|_| fields.float("a parameter of a camera"));
+        let parameters = parameters.collect::<Result<_, _>>()?;
+        cameras.insert(
+            id,
+            Camera {
+                model,
+                width,
+                parameters,
+            },
+        );
+    }
+    Ok(cameras)
+}
+
+/// The number of the camera of an image.
+pub(super) fn camera_of(encoding: Encoding, image: &Image) -> Option<u32> {
+    match encoding {
+        Encoding::Binary => Some(u32::from_le_bytes(*image.pose.last_chunk()?)),
+        Encoding::Text => std::str::from_utf8(&image.pose)
+            .ok()?
+            .rsplit(' ')
+            .next()?
+            .parse()
+            .ok(),
+    }
 }
 
 /// The rigs. O(bytes log bytes).
