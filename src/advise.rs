@@ -16,6 +16,10 @@ pub(super) struct AdviseArguments {
     graphs: Vec<PathBuf>,
     #[command(flatten)]
     advice: AdviceArguments,
+    /// Write the suggested pairs that are left to match to FILE, the most promising first, and print the
+    /// COLMAP command that matches them.
+    #[arg(long, value_name = "FILE")]
+    write: Option<PathBuf>,
     #[command(flatten)]
     question: QuestionArguments,
     #[command(flatten)]
@@ -61,7 +65,7 @@ enum WeakName {
     Images,
 }
 
-/// Most suggestions where nothing else is asked.
+/// Most suggestions where no number is given.
 const SUGGESTED: u32 = 10;
 
 impl AdviseArguments {
@@ -73,7 +77,9 @@ impl AdviseArguments {
         let mut plan = self.question.plan(&self.graphs)?;
         plan.intrinsics = self.intrinsics.from();
         plan.request = self.advice.request();
-        if !plan.request.asks() {
+        plan.request.write = self.write.clone();
+        let request = &plan.request;
+        if !request.asks() || request.write.is_some() && request.suggest.is_none() {
             plan.request.suggest = Some(SUGGESTED);
         }
         plan.checked()
@@ -93,7 +99,7 @@ impl AdviceArguments {
             implied: self.implied,
             suggest: self.suggest,
             explain: self.explain.clone(),
-            export: None,
+            ..Request::default()
         }
     }
 }

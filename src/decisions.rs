@@ -34,7 +34,7 @@ use viewcert_session::{Outputs, Session, complain, outputs, printable};
 /// Decides every graph, many of them side by side, and reports in their order; a bad one has its record too and
 /// does not stop the others.
 pub(super) fn run(session: &Session, plan: &Plan) -> Result<u8> {
-    let mut out = outputs::text(&plan.products.files().map(|(_, path)| path));
+    let mut out = outputs::text(&plan.files().map(|(_, path)| path));
     let counted = plan.question.solutions != CountSolutions::Off;
     let table = match plan.form {
         Form::Table(format) => Some(Table::begin(&mut out, format, &plan.graphs, counted)),

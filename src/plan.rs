@@ -101,21 +101,11 @@ pub(super) const CERTIFICATE: &str = "--certificate";
 /// The same of the explicit proof.
 pub(super) const PROOF: &str = "--proof";
 
+/// The same of the list of pairs to match.
+const WRITE: &str = "--write";
+
 /// The name of the classes of cameras in messages.
 pub(super) const INTRINSICS: &str = "--intrinsics";
-
-impl Products {
-    /// All files behind what they are called in messages.
-    pub(super) fn files(&self) -> [(&'static str, Option<&Path>); 5] {
-        [
-            (CERTIFICATE, self.certificate.as_deref()),
-            (PROOF, self.proof.as_deref()),
-            ("witness", self.witness.as_deref()),
-            ("page", self.page.as_deref()),
-            ("picture", self.picture.as_deref()),
-        ]
-    }
-}
 
 impl Plan {
     /// The usual question of a model about some graphs, and a report in lines.
@@ -211,6 +201,11 @@ impl Plan {
             );
         }
         ensure!(
+            self.request.write.is_none(),
+            "{INTRINSICS}: cameras to calibrate are suggested then, and {WRITE} writes pairs; leave out one of \
+             the two"
+        );
+        ensure!(
             self.products.proof.is_none(),
             "{INTRINSICS}: explicit proofs do not state classes of cameras; leave out {PROOF}"
         );
@@ -241,11 +236,24 @@ impl Plan {
         Ok(())
     }
 
+    /// All files that are written, behind what they are called in messages.
+    pub(super) fn files(&self) -> [(&'static str, Option<&Path>); 6] {
+        let products = &self.products;
+        [
+            (CERTIFICATE, products.certificate.as_deref()),
+            (PROOF, products.proof.as_deref()),
+            ("witness", products.witness.as_deref()),
+            ("page", products.page.as_deref()),
+            ("picture", products.picture.as_deref()),
+            (WRITE, self.request.write.as_deref()),
+        ]
+    }
+
     /// No output is an input or another output, and standard input is one thing.
     fn check_files(&self) -> Result<()> {
         let inputs = self.graphs.iter().chain(&self.given);
         let inputs = inputs.map(PathBuf::as_path).chain(self.intrinsics_file());
-        let files = self.products.files();
+        let files = self.files();
         // A folder of certificates is no file that could be the same.
         let is_folder = files[0].1.is_some_and(Path::is_dir);
         let from = usize::from(is_folder);
@@ -257,7 +265,7 @@ impl Plan {
 
     /// Why there cannot be several graphs, if there cannot.
     pub(super) fn too_many(&self, what: &str) -> Option<String> {
-        let files = self.products.files().into_iter();
+        let files = self.files().into_iter();
         let mut files = files.filter_map(|(name, path)| Some((name, path?)));
         let given = self.given.as_deref().map(|path| (given::OPTION, path));
         let given = given.or(self.intrinsics_file().map(|path| (INTRINSICS, path)));

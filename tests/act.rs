@@ -570,13 +570,15 @@ impl Cut {
             .to_owned()
     }
 
-    /// Matches two images: what the whole has of them, or nothing.
-    fn match_pair(&self, pair: [usize; 2]) {
+    /// Matches two images: what the whole has of them, if it is there, or nothing.
+    fn match_pair(&self, pair: [usize; 2], has_whole: bool) {
         let number = 2_147_483_647 * (pair[0] + 1) + pair[1] + 1;
         let found = format!(
             "insert or replace into main.two_view_geometries select * from uncut.two_view_geometries where pair_id = {number}"
         );
-        self.database.execute(&found, []).unwrap();
+        if has_whole {
+            self.database.execute(&found, []).unwrap();
+        }
         let tried = format!(
             "insert or ignore into main.matches (pair_id, rows, cols) values ({number}, 0, 2)"
         );
@@ -614,12 +616,100 @@ fn a_cut_sequence_is_mended_by_neighbours() {
             }
             let next = named.find(|pair| !tried.contains(pair));
             let next = next.unwrap_or_else(|| panic!("cut at {at}: {tried:?}: {line}"));
-            cut.match_pair(next);
+            cut.match_pair(next, true);
             tried.push(next);
             assert!(tried.len() <= 4, "cut at {at}: {tried:?}");
         }
         assert_eq!(tried[0], [at - 1, at], "the two images at the cut");
     }
+}
+
+/// Whoever matches what the list has, and asks again, gets all images into one part, or the two groups that
+/// need a photograph between them and an empty list.
+#[test]
+#[ignore = "needs data"]
+fn a_list_of_pairs_is_followed_to_its_end() {
+    let source = data().join("turn4/photos/street_seq2.db");
+    for (at, has_pairs) in [(5, true), (9, true), (14, true), (9, false)] {
+        let cut = Cut::new(&source, at);
+        if !has_pairs {
+            let gone = "delete from two_view_geometries where pair_id / 2147483647 <= 9
+                        and pair_id % 2147483647 > 9";
+            cut.database.execute_batch("detach uncut").unwrap();
+            cut.database.execute(gone, []).unwrap();
+        }
+        let list = cut.folder.path().join("pairs.txt");
+        let (path, list_path) = (cut.path(), list.to_str().unwrap().to_owned());
+        let words = ["advise", "--tracks", &path, "--suggest=2", "--json"];
+        let words = [&words[..], &["--write", &list_path]].concat();
+        let mut tried: Vec<[usize; 2]> = Vec::new();
+        let last = loop {
+            let run = verify(&words);
+            let line = run.json().remove(0);
+            let place = |name: &str| cut.names.iter().position(|own| own == name).unwrap();
+            let text = fs::read_to_string(&list).unwrap();
+            let pairs = text.lines().map(|pair| {
+                let (a, b) = pair.split_once(' ').unwrap();
+                [place(a).min(place(b)), place(a).max(place(b))]
+            });
+            let pairs: Vec<[usize; 2]> = pairs.collect();
+            assert_eq!(line["to_match"]["pairs"], pairs.len());
+            if pairs.is_empty() {
+                break line;
+            }
+            let command = format!(
+                "colmap matches_importer --database_path {path} --match_list_path {list_path}"
+            );
+            assert_eq!(line["to_match"]["command"], command);
+            assert!(pairs.len() <= 2 && run.code == 1, "{pairs:?}");
+            for pair in pairs {
+                assert!(!tried.contains(&pair), "{pair:?} again");
+                assert!(pair[0] < at && at <= pair[1], "{pair:?} joins nothing");
+                cut.match_pair(pair, has_pairs);
+                tried.push(pair);
+            }
+        };
+        assert!(last["to_match"].get("command").is_none());
+        if has_pairs {
+            assert_eq!(last["suggestions"], json!([]));
+            assert!(
+                last.get("photograph").is_none() && tried.len() <= 4,
+                "{tried:?}"
+            );
+        } else {
+            assert_eq!(tried.len(), at * (19 - at), "every pair across");
+            assert_eq!(
+                last["photograph"]["groups"][0].as_array().unwrap().len(),
+                at
+            );
+        }
+    }
+}
+
+/// A list that COLMAP would read as something else is refused, and the file stays as it was.
+#[test]
+fn a_list_of_pairs_holds_names_without_blanks() {
+    let folder = tempfile::tempdir().unwrap();
+    let list = folder.path().join("pairs.txt");
+    fs::write(&list, "as it was").unwrap();
+    let words = [
+        "advise",
+        "-",
+        "--columns",
+        "a,b",
+        "--write",
+        list.to_str().unwrap(),
+    ];
+    let run = verify_with(b"a,b\nmy photo,x\nx,y\n", &words);
+    assert_eq!(run.code, 2, "{}", run.out);
+    let why =
+        "COLMAP's lists cannot hold the names \"my photo\": a list of pairs is split at blanks";
+    assert!(
+        run.err.contains("--write") && run.err.contains(why),
+        "{}",
+        run.err
+    );
+    assert_eq!(fs::read_to_string(&list).unwrap(), "as it was");
 }
 
 #[test]

@@ -465,7 +465,7 @@ impl Decided {
 
     /// What the program says: `kind` is `json`, `text` or `html`.
     #[pyo3(signature = (
-        kind, *, list_components=false, weak=None, suggest=None, explain=None, export=None, surplus=false, redundant=None, implied=None, intrinsics=None, sensors=None
+        kind, *, list_components=false, weak=None, suggest=None, write=None, explain=None, export=None, surplus=false, redundant=None, implied=None, intrinsics=None, sensors=None
     ))]
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn report<'py>(
@@ -475,6 +475,7 @@ impl Decided {
         list_components: bool,
         weak: Option<&str>,
         suggest: Option<u32>,
+        write: Option<PathBuf>,
         explain: Option<String>,
         export: Option<PathBuf>,
         surplus: bool,
@@ -508,6 +509,7 @@ impl Decided {
             redundant,
             implied,
             suggest,
+            write,
             explain,
             export,
         };

@@ -1,7 +1,7 @@
 //! Components as files that COLMAP takes, tables of them, and the commands that come next.
 
 use crate::folder::{ensure_own, is_called, paths};
-use crate::named::{Export, Joint};
+use crate::named::{Export, Joint, ToMatch};
 use crate::task::{Task, number};
 use anyhow::{Result, ensure};
 use std::collections::BTreeSet;
@@ -9,7 +9,7 @@ use std::fs;
 use std::io::{BufWriter, Write};
 use std::path::Path;
 use viewcert::wording::printable;
-use viewcert_session::Outputs;
+use viewcert_session::{Outputs, outputs};
 
 const COMPONENTS: &str = "components";
 const TABLES: [&str; 3] = ["components.tsv", "images.tsv", "joints.tsv"];
@@ -67,7 +67,13 @@ pub(crate) fn write(
 ) -> Result<Export> {
     check(folder)?;
     let exported = exported(task);
-    ensure_expressible(folder, task, &exported)?;
+    let images: BTreeSet<u32> = exported
+        .iter()
+        .flat_map(|part| part.images.iter().copied())
+        .collect();
+    let names = images.into_iter().map(|v| task.names.of(v));
+    let what = format!("export {}", folder.display());
+    ensure_expressible(&what, names, task.input.cameras.is_none())?;
     let digits = exported
         .last()
         .map_or(3, |last| number(last.component).to_string().len().max(3));
@@ -105,6 +111,50 @@ pub(crate) fn write(
     })
 }
 
+/// Writes a list of pairs, as `matches_importer` takes it.
+///
+/// # Errors
+/// If a name cannot be expressed, or the list cannot be written.
+pub(crate) fn write_pairs(
+    outputs: &Outputs,
+    list: &Path,
+    task: &Task,
+    pairs: &[&[String; 2]],
+) -> Result<ToMatch> {
+    let names: BTreeSet<&String> = pairs.iter().copied().flatten().collect();
+    let what = format!("--write {}", list.display());
+    ensure_expressible(&what, names.into_iter().cloned(), true)?;
+    outputs.write(list, |out| {
+        let mut pairs = pairs.iter();
+        pairs.try_for_each(|[a, b]| writeln!(out, "{a} {b}"))
+    })?;
+    let file = if outputs::is_standard(list) {
+        Path::new(LISTS[1])
+    } else {
+        list
+    };
+    let command = || {
+        format!(
+            "colmap matches_importer --database_path {} --match_list_path {}",
+            shell(database(task)),
+            shell(&file.display().to_string())
+        )
+    };
+    Ok(ToMatch {
+        file: list.display().to_string(),
+        pairs: pairs.len(),
+        command: (!pairs.is_empty()).then(command),
+    })
+}
+
+/// The database in commands.
+fn database<'a>(task: &Task<'a>) -> &'a str {
+    match task.input.database {
+        Some(_) => &task.input.name,
+        None => "database.db",
+    }
+}
+
 /// The components that are more than a pair, of a camera-point graph those with two cameras.
 fn exported(task: &Task) -> Vec<Exported> {
     let images = task.names.images().end;
@@ -122,15 +172,12 @@ fn exported(task: &Task) -> Vec<Exported> {
     parts.filter(|part| part.images.len() > 1).collect()
 }
 
-/// Refuses names that COLMAP's lists would read as something else.
-fn ensure_expressible(folder: &Path, task: &Task, exported: &[Exported]) -> Result<()> {
-    let mut images: Vec<u32> = exported
-        .iter()
-        .flat_map(|part| part.images.clone())
-        .collect();
-    images.sort_unstable();
-    images.dedup();
-    let in_pairs = task.input.cameras.is_none();
+/// Refuses names that COLMAP's lists of images, or of pairs, would read as something else.
+fn ensure_expressible(
+    what: &str,
+    names: impl Iterator<Item = String>,
+    in_pairs: bool,
+) -> Result<()> {
     let bad = |name: &str| {
         let blank = if in_pairs {
             name.contains(char::is_whitespace)
@@ -141,7 +188,6 @@ fn ensure_expressible(folder: &Path, task: &Task, exported: &[Exported]) -> Resu
         };
         blank || name.is_empty() || in_pairs && name.starts_with('#')
     };
-    let names = images.iter().map(|&v| task.names.of(v));
     let bad: Vec<String> = names.filter(|name| bad(name)).collect();
     let shown: Vec<String> = bad
         .iter()
@@ -158,8 +204,7 @@ fn ensure_expressible(folder: &Path, task: &Task, exported: &[Exported]) -> Resu
     };
     ensure!(
         bad.is_empty(),
-        "export {}: COLMAP's lists cannot hold the names {}{more}: {why}; rename these images",
-        folder.display(),
+        "{what}: COLMAP's lists cannot hold the names {}{more}: {why}; rename these images",
         shown.join(", ")
     );
     Ok(())
@@ -274,12 +319,7 @@ const GLOBAL: u32 = 4_000_000;
 /// The commands that reconstruct one component: with COLMAP's two mappers, and with pycolmap; those
 /// that the version has by which the database was written, or else those of version 4.
 fn commands(task: &Task, lists: &Path, name: &str) -> Vec<String> {
-    let is_database = task.input.database.is_some();
-    let database = if is_database {
-        &task.input.name[..]
-    } else {
-        "database.db"
-    };
+    let database = database(task);
     let images = lists.join(LISTS[0]).display().to_string();
     let out = format!("sparse/{name}");
     let facts = task.input.database.as_ref();

@@ -39,6 +39,9 @@ pub struct Advice {
     /// Where a photograph would help, if all that could be matched was.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub photograph: Option<Photograph>,
+    /// The list of pairs to match.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub to_match: Option<ToMatch>,
     /// One image.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub explain: Option<Explain>,
@@ -124,6 +127,9 @@ pub struct WeakItem {
 pub struct Suggestion {
     /// The pairs.
     pub pairs: Vec<[String; 2]>,
+    /// Those of them that are left to match, with all images at the place of each.
+    #[serde(skip)]
+    pub open: Vec<[String; 2]>,
     /// Images of a frame at the place of one of these, which are the same camera: to be matched as well.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub also: Vec<String>,
@@ -153,6 +159,18 @@ pub struct Suggestion {
     /// In a camera-point graph: how much has to come of it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub enough: Option<Enough>,
+}
+
+/// A list of pairs to match that was written.
+#[derive(Clone, Debug, Serialize)]
+pub struct ToMatch {
+    /// The list.
+    pub file: String,
+    /// How many pairs it has.
+    pub pairs: usize,
+    /// The command that matches and verifies them, if there are any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub command: Option<String>,
 }
 
 /// Two groups of images that need a photograph between them.

@@ -4,6 +4,7 @@ use crate::named::Advice;
 use crate::task::{Task, Weak};
 use crate::{Lost, Shapes, export, folder};
 use anyhow::{Result, bail, ensure};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use viewcert::Verdict;
 use viewcert::watch::Watch;
@@ -23,6 +24,8 @@ pub struct Request {
     pub implied: Option<u32>,
     /// Pairs that would join components, so many at most; with tracks also how much has to come of it.
     pub suggest: Option<u32>,
+    /// The file that gets those of them that are left to match, as COLMAP takes them.
+    pub write: Option<PathBuf>,
     /// An image, by its label, to be explained.
     pub explain: Option<String>,
     /// The folder that gets the components as COLMAP takes them.
@@ -147,8 +150,14 @@ impl Request {
         }
         if let Some(most) = self.suggest {
             let found = task.suggest(&joints, most as usize, None)?;
-            if found.is_empty() && !advice.is_whole {
+            let mut seen = BTreeSet::new();
+            let open = found.iter().flat_map(|one| &one.open);
+            let open: Vec<&[String; 2]> = open.filter(|pair| seen.insert(*pair)).collect();
+            if open.is_empty() && !advice.is_whole {
                 advice.photograph = task.photograph();
+            }
+            if let Some(list) = &self.write {
+                advice.to_match = Some(export::write_pairs(outputs, list, &task, &open)?);
             }
             advice.suggestions = Some(found);
         }

@@ -237,6 +237,7 @@ impl<'a> Task<'a> {
                     .iter()
                     .map(|&(pair, _)| self.names.pair(pair))
                     .collect(),
+                open: self.open(&found.candidates),
                 also: Vec::new(),
                 inliers: known(|pair| Some(pair.inliers)),
                 matches: known(|pair| pair.matches),
@@ -303,6 +304,7 @@ impl<'a> Task<'a> {
             let known = found.known;
             named::Suggestion {
                 pairs: vec![self.names.pair(found.cameras)],
+                open: self.open(&[found.candidate]),
                 also: self.also(found.cameras),
                 inliers: known.map(|known| vec![known.inliers]),
                 matches: known.and_then(|known| Some(vec![known.matches?])),
@@ -322,6 +324,17 @@ impl<'a> Task<'a> {
             }
         });
         Ok(named.collect())
+    }
+
+    /// The pairs of images that are left to match: a camera may stand for several images.
+    fn open(&self, candidates: &[Candidate]) -> Vec<[String; 2]> {
+        let open = candidates.iter().filter(|one| one.tried.is_open());
+        let images = open.flat_map(|one| {
+            let (a, b) = one.pair;
+            let with = move |a: String| self.names.all_of(b).map(move |b| [a.clone(), b]);
+            self.names.all_of(a).flat_map(with)
+        });
+        images.collect()
     }
 
     /// The images that were taken at the place of one of two, besides the one that has its name.

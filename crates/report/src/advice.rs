@@ -5,7 +5,7 @@ use crate::shown::{SHOWN, rest};
 use std::io::{self, Write};
 use viewcert::wording::counted;
 use viewcert_advice::named::{
-    Advice, Enough, Explain, Export, Joint, Photograph, Suggestion, Weak,
+    Advice, Enough, Explain, Export, Joint, Photograph, Suggestion, ToMatch, Weak,
 };
 
 /// Writes what was found.
@@ -30,6 +30,9 @@ pub fn write(out: &mut impl Write, advice: &Advice) -> io::Result<()> {
     }
     if let Some(found) = &advice.photograph {
         writeln!(out, "  photograph  {}", photograph(found))?;
+    }
+    if let Some(found) = &advice.to_match {
+        to_match(out, found)?;
     }
     if let Some(found) = &advice.explain {
         explain(out, found, advice.of_tracks)?;
@@ -229,6 +232,27 @@ pub(crate) fn photograph(found: &Photograph) -> String {
         "take one between {one} and {other}; nearest to each other are {a} and {b}: all pairs that could join \
          something were matched, and gave too little"
     )
+}
+
+/// The list of pairs, and the command that takes it.
+fn to_match(out: &mut impl Write, found: &ToMatch) -> io::Result<()> {
+    let ToMatch {
+        file,
+        pairs,
+        command,
+    } = found;
+    let Some(command) = command else {
+        return writeln!(
+            out,
+            "  written     no pair to {file}: none is left to match"
+        );
+    };
+    let pairs = counted(*pairs, "pair");
+    writeln!(
+        out,
+        "  written     {pairs} to {file}, the most promising first; match and verify, then ask again:"
+    )?;
+    writeln!(out, "    {command}")
 }
 
 /// How much has to come of matching two images.

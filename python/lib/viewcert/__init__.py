@@ -72,6 +72,7 @@ from ._intrinsics import (
     intrinsics,
 )
 from ._limits import limits
+from ._mend import Mended, mend
 from ._matrices import ExactMatrix, rigidity_matrix
 from ._native import __version__
 from ._studies import (
@@ -106,6 +107,7 @@ __all__ = [
     "Joint",
     "ListedImages",
     "Lists",
+    "Mended",
     "Models",
     "NotVerified",
     "NoteWarning",
@@ -149,6 +151,7 @@ __all__ = [
     "label",
     "limits",
     "lists",
+    "mend",
     "merge",
     "models",
     "overview",

@@ -151,6 +151,7 @@ class Decided:
         list_components: bool = False,
         weak: str | None = None,
         suggest: int | None = None,
+        write: str | os.PathLike[str] | None = None,
         explain: str | None = None,
         export: str | os.PathLike[str] | None = None,
         surplus: bool = False,

@@ -30,12 +30,12 @@ class _Bar:
         self._bar.update(done - self._bar.n)
 
 
-def _marked(callback: Callback) -> Callback:
+def marked(callback: Callable[..., object]) -> Callable[..., None]:
     """The callback, whose errors are known as its own."""
 
-    def tell(what: str, done: int, total: int) -> None:
+    def tell(*arguments: object) -> None:
         try:
-            callback(what, done, total)
+            callback(*arguments)
         except Exception as error:
             error.of_callback = True  # type: ignore[attr-defined]
             raise
@@ -47,7 +47,7 @@ def _marked(callback: Callback) -> Callback:
 def shown(progress: Progress) -> Iterator[Optional[Callback]]:
     """The callback for `progress`, and the end of its bar."""
     if callable(progress):
-        yield _marked(progress)
+        yield marked(progress)
     elif progress is True:
         from tqdm.auto import tqdm
 

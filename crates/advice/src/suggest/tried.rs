@@ -49,6 +49,11 @@ impl Tried {
         matches!(self, Self::Few | Self::InVain)
     }
 
+    /// Whether matching or verifying them is still to be done.
+    pub fn is_open(self) -> bool {
+        matches!(self, Self::Unverified | Self::Not)
+    }
+
     /// The word for programs.
     pub fn name(self) -> &'static str {
         match self {
