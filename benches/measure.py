@@ -14,7 +14,7 @@
 
 `against` holds the program against an older `verify`, built from another checkout.
 Needs the programs that README.md builds first; `rational` and `cores` also FLINT (Debian:
-libflint-dev) and gcc, and `rational` takes in the GMP build if it is there.
+libflint-dev) and gcc.
 
 Every figure is a median over several runs of a process of its own, runs of the compared
 programs taking turns. Wall-clock times include starting the process. On a machine that does
@@ -40,7 +40,6 @@ ROOT = Path(__file__).resolve().parent.parent
 RELEASE = ROOT / "target" / "release"
 VERIFY = RELEASE / "verify"
 CHECK = RELEASE / "viewcert-check"
-GMP = ROOT / "target" / "gmp" / "release" / "verify"
 EXAMPLES = RELEASE / "examples"
 
 # What a process takes for any graph, in bytes.
@@ -235,22 +234,19 @@ def rational(arguments, folder):
     small = folder / "10-14.g6"
     small.write_text(SOLVABLE_10_14 + "\n")
     large = generate(folder / "20-60.txt", "random", 20, 60, 1)
-    head("graph", "rank", "num-bigint, s", "GMP, s", "peak, MiB", "determinant, bits",
+    head("graph", "rank", "rational mode, s", "peak, MiB", "determinant, bits",
          "fmpz_mat_rank, s", "prime mode, s", "nmod_mat_rank, s")
     for name, graph in [("10 cameras, 14 pairs", small), ("20 cameras, 60 pairs", large)]:
         commands = [[program, *mode, "--method", "matrix", graph]
-                    for program, mode in [(VERIFY, ["--rational"]), (GMP, ["--rational"]),
-                                          (VERIFY, ["--prime"])]
-                    if program.exists()]
+                    for program, mode in [(VERIFY, ["--rational"]), (VERIFY, ["--prime"])]]
         results = compare(commands, arguments.runs)
         number, prime = results[0], results[-1]
-        gmp = sec(results[1].cpu) if len(results) == 3 else "not built"
         text = subprocess.run(commands[0], capture_output=True, text=True).stdout
         bits = re.search(r"determinant of (\d+) bits", text)
         integers, residues = (
             [flint(kind, graph, folder) for _ in range(arguments.runs)]
             for kind in ("integers", "residues"))
-        row(name, integers[0]["rank"], sec(number.cpu), gmp, mib(number.peak),
+        row(name, integers[0]["rank"], sec(number.cpu), mib(number.peak),
             bits[1] if bits else "-", sec(median(integers, "cpu")), sec(prime.cpu),
             sec(median(residues, "cpu")))
 

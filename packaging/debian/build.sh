@@ -24,8 +24,7 @@ epoch=$(git -C "$root" log -1 --format=%ct)
 # What git has, without what the program does not need.
 git -C "$root" archive HEAD -- Cargo.toml Cargo.lock LICENSE-MIT LICENSE-APACHE README.md CHANGELOG.md src crates \
     docs examples packaging | tar -x -C "$source"
-# The laboratory and the Python package are not built here, nor what tests need, nor arithmetic by GMP (the LGPL, and
-# manuals under the GFDL): their crates are not vendored.
+# The laboratory and the Python package are not built here, nor what tests need: their crates are not vendored.
 python3 - "$source" <<'PYTHON'
 import pathlib
 import re
@@ -36,7 +35,6 @@ for path in [pathlib.Path(sys.argv[1]) / "Cargo.toml", *pathlib.Path(sys.argv[1]
     text = text.replace(', "python"]', "]")
     text = re.sub(r"\n\[dev-dependencies\]\n.*?(?=\n\[)", "\n", text, flags=re.S)
     text = re.sub(r"\n\[\[test\]\]\n(?:.+\n)*", "\n", text)
-    text = re.sub(r"(?m)^(?:gmp|rug) = .*\n", "", text)
     path.write_text(text)
 PYTHON
 (

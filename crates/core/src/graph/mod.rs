@@ -1,6 +1,6 @@
 //! The viewing graph: cameras as nodes, pairs with a fundamental matrix as edges.
 //!
-//! In: pairs of numbers, of labels, or of a graph of petgraph (feature `petgraph`). Out: a
+//! In: pairs of numbers, or of labels. Out: a
 //! [`Graph`], its hash ([`identity`]) and graph6 text ([`graph6`]), [`Labels`], and what the
 //! contraction of docs/theory.md, section 4, needs: neighbours, biconnected components, sets; and
 //! what is known beside the pairs ([`KnownParts`]).
@@ -17,8 +17,6 @@ mod labelled;
 pub mod labels;
 mod leaves;
 mod lists;
-#[cfg(feature = "petgraph")]
-mod petgraph;
 mod sort;
 mod union_find;
 mod vectors;

@@ -1,22 +1,15 @@
-//! Integers of any size: num-bigint, or GMP with the feature `gmp`.
-//!
-//! [`Integer`] exposes only operations whose result is determined by mathematics, so
-//! that the two backends cannot differ in any output.
-
-#[cfg(feature = "gmp")]
-#[path = "gmp.rs"]
-mod backend;
-#[cfg(not(feature = "gmp"))]
-#[path = "num.rs"]
-mod backend;
+//! Integers of any size, by num-bigint.
 
 use crate::linalg::Ring;
+use num_bigint::{BigInt, Sign};
+use num_integer::Integer as _;
+use num_traits::{Euclid, ToPrimitive};
 use std::cmp::Ordering;
 use std::fmt;
 
 /// An integer of any size.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Integer(backend::Inner);
+pub struct Integer(BigInt);
 
 /// A text that is not a decimal integer: an optional minus sign and digits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,7 +41,11 @@ impl Integer {
 
     /// The comparison with 0: `Less` for a negative number.
     pub fn sign(&self) -> Ordering {
-        backend::sign(&self.0)
+        match self.0.sign() {
+            Sign::Minus => Ordering::Less,
+            Sign::NoSign => Ordering::Equal,
+            Sign::Plus => Ordering::Greater,
+        }
     }
 
     /// |self|
@@ -62,42 +59,42 @@ impl Integer {
 
     /// Compares absolute values.
     pub fn cmp_abs(&self, other: &Self) -> Ordering {
-        backend::cmp_abs(&self.0, &other.0)
+        self.0.magnitude().cmp(other.0.magnitude())
     }
 
     /// `self + other`
     pub fn add(&self, other: &Self) -> Self {
-        Self(backend::add(&self.0, &other.0))
+        Self(&self.0 + &other.0)
     }
 
     /// `self - other`
     pub fn sub(&self, other: &Self) -> Self {
-        Self(backend::sub(&self.0, &other.0))
+        Self(&self.0 - &other.0)
     }
 
     /// `self * other`
     pub fn mul(&self, other: &Self) -> Self {
-        Self(backend::mul(&self.0, &other.0))
+        Self(&self.0 * &other.0)
     }
 
     /// `-self`
     pub fn neg(&self) -> Self {
-        Self(backend::neg(&self.0))
+        Self(-&self.0)
     }
 
     /// `self *= other`
     pub fn mul_assign(&mut self, other: &Self) {
-        backend::mul_assign(&mut self.0, &other.0);
+        self.0 *= &other.0;
     }
 
     /// `self += other`
     pub fn add_assign(&mut self, other: &Self) {
-        backend::add_assign(&mut self.0, &other.0);
+        self.0 += &other.0;
     }
 
     /// `self -= other`
     pub fn sub_assign(&mut self, other: &Self) {
-        backend::sub_assign(&mut self.0, &other.0);
+        self.0 -= &other.0;
     }
 
     /// `self / divisor`, where the division is known to leave no remainder; with a
@@ -106,7 +103,7 @@ impl Integer {
     /// # Panics
     /// If `divisor` is zero.
     pub fn div_exact(&self, divisor: &Self) -> Self {
-        Self(backend::div_exact(&self.0, &divisor.0))
+        Self(&self.0 / &divisor.0)
     }
 
     /// Quotient and remainder with `self = q * divisor + r`, `0 <= r < |divisor|`.
@@ -114,13 +111,13 @@ impl Integer {
     /// # Panics
     /// If `divisor` is zero.
     pub fn div_rem_euclid(&self, divisor: &Self) -> (Self, Self) {
-        let (q, r) = backend::div_rem_euclid(&self.0, &divisor.0);
+        let (q, r) = self.0.div_rem_euclid(&divisor.0);
         (Self(q), Self(r))
     }
 
     /// The greatest common divisor, never negative; `gcd(0, 0) = 0`.
     pub fn gcd(&self, other: &Self) -> Self {
-        Self(backend::gcd(&self.0, &other.0))
+        Self(self.0.gcd(&other.0))
     }
 
     /// The greatest common divisor of all, never negative; 0 of none. Stops at one: the greatest
@@ -146,7 +143,7 @@ impl Integer {
 
     /// The number of bits of the absolute value; 0 for 0.
     pub fn bits(&self) -> u64 {
-        backend::bits(&self.0)
+        self.0.bits()
     }
 
     /// The residue `0 <= r < modulus`.
@@ -154,7 +151,13 @@ impl Integer {
     /// # Panics
     /// If `modulus` is zero.
     pub fn rem_u64(&self, modulus: u64) -> u64 {
-        backend::rem_u64(&self.0, modulus)
+        let rest = (self.0.magnitude() % modulus).to_u64();
+        let rest = rest.unwrap_or_else(|| unreachable!("a residue is below its modulus"));
+        if rest > 0 && self.0.sign() == Sign::Minus {
+            modulus - rest
+        } else {
+            rest
+        }
     }
 
     /// Reads an optional minus sign and decimal digits, nothing else.
