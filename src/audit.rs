@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 use viewcert::Model;
 use viewcert::decide;
 use viewcert::here::{Centres, Here};
-use viewcert_audit::at_cameras::{self, FloatClaim, SigmaError, rule, sigma};
+use viewcert_audit::at_cameras::{self, FloatClaim, SigmaError, ruled, sigma};
 use viewcert_audit::claims::{self, Ruling};
 use viewcert_audit::enclosure::{Enclosure, Matrix};
 use viewcert_audit::table::{Row, TableError};
@@ -326,61 +326,53 @@ fn rule_all(
     if !json && let Some(first) = answers.first() {
         head(out, &first.input)?;
     }
-    let print = |out: &mut _, report: AtCameras| match json {
-        true => report.write_json(out),
-        false => report.write_text(out),
-    };
     let Some(claims) = claims else {
-        let Exact {
-            input,
-            centres,
-            here,
-        } = &answers[0];
-        let matrix = centres.cameras().map(|_| Matrix::Plain);
-        let found = matrix
-            .map(|matrix| enclosed(session, &answers[0], matrix, None))
-            .transpose()?;
-        let (sigma, ruled) = (matrix.zip(found.as_ref()), None);
-        print(
-            out,
-            AtCameras {
-                input,
-                here,
-                sigma,
-                ruled,
-            },
-        )?;
+        let at = &answers[0];
+        let matrix = at.centres.cameras().map(|_| Matrix::Plain);
+        let found = matrix.map(|matrix| {
+            let found = session.watched(|watch| {
+                let (graph, centres) = (&at.input.graph, (&at.centres, &at.here));
+                sigma(matrix, graph, centres, (None, None), watch)
+            });
+            Ok::<_, anyhow::Error>((matrix, found.map_err(|error| not_enclosed(error, 0))?))
+        });
+        print(out, json, at, found.transpose()?.as_ref(), None)?;
         return Ok(GOOD);
     };
     let mut counts = Counts::default();
     for (row, claim) in (1..).zip(claims) {
-        let answer = answers
-            .iter()
-            .find(|answer| answer.here.model == claim.model);
-        let answer = answer.unwrap_or(&answers[0]);
-        let asked = claim.sigma.as_ref().and(claim.matrix);
-        let found = asked
-            .map(|matrix| enclosed(session, answer, matrix, Some(claim)))
-            .transpose()?;
-        let Exact { input, here, .. } = answer;
-        let ruling = rule(claim, here, found.as_ref());
+        let at = answers.iter().find(|at| at.here.model == claim.model);
+        let at = at.unwrap_or(&answers[0]);
+        let found =
+            session.watched(|watch| ruled(claim, &at.input.graph, (&at.centres, &at.here), watch));
+        let (ruling, sigma) = found.map_err(|error| not_enclosed(error, claim.line))?;
         counts.add(&ruling);
-        let (sigma, ruled) = (asked.zip(found.as_ref()), Some((row, claim, &ruling)));
-        print(
-            out,
-            AtCameras {
-                input,
-                here,
-                sigma,
-                ruled,
-            },
-        )?;
-        out.flush().context("standard output")?;
+        print(out, json, at, sigma.as_ref(), Some((row, claim, &ruling)))?;
     }
     if !json {
         writeln!(out, "{}", counts.words())?;
     }
     Ok(counts.code())
+}
+
+fn print(
+    out: &mut impl Write,
+    json: bool,
+    Exact { input, here, .. }: &Exact,
+    sigma: Option<&(Matrix, Enclosure)>,
+    ruled: Option<(usize, &FloatClaim, &Ruling)>,
+) -> Result<()> {
+    let report = AtCameras {
+        input,
+        here,
+        sigma,
+        ruled,
+    };
+    match json {
+        true => report.write_json(out)?,
+        false => report.write_text(out)?,
+    }
+    out.flush().context("standard output")
 }
 
 fn exact(session: &Session, input: &NamedGraph, path: &Path, model: Model) -> Result<Exact> {
@@ -392,8 +384,7 @@ fn exact(session: &Session, input: &NamedGraph, path: &Path, model: Model) -> Re
         );
     };
     let input = noted(input, cameras.notes).into_owned();
-    let here = here::decide(&input, &cameras.centres, &session.shown_watch())?;
-    session.hide();
+    let here = session.watched(|watch| here::decide(&input, &cameras.centres, watch))?;
     Ok(Exact {
         input,
         centres: cameras.centres,
@@ -401,25 +392,11 @@ fn exact(session: &Session, input: &NamedGraph, path: &Path, model: Model) -> Re
     })
 }
 
-/// The singular value, as near as a claim asks for.
-fn enclosed(
-    session: &Session,
-    answer: &Exact,
-    matrix: Matrix,
-    claim: Option<&FloatClaim>,
-) -> Result<Enclosure> {
-    let (graph, at) = (&answer.input.graph, (&answer.centres, &answer.here));
-    let bounds = claim.map_or((None, None), |claim| {
-        (claim.norm.as_ref(), claim.sigma.as_ref())
-    });
-    let found = sigma(matrix, graph, at, bounds, &session.shown_watch());
-    session.hide();
-    found.map_err(|error| match error {
+/// Why a singular value is not enclosed, which a line of the table claims.
+fn not_enclosed(error: SigmaError, line: usize) -> anyhow::Error {
+    match error {
         SigmaError::TooLarge { .. } => TooLarge(error.to_string()).into(),
         SigmaError::Stopped(stopped) => stopped.into(),
-        error => {
-            let line = claim.map_or(0, |claim| claim.line);
-            anyhow!("line {line} of the table: {error}")
-        }
-    })
+        error => anyhow!("line {line} of the table: {error}"),
+    }
 }

@@ -13,7 +13,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 use viewcert::linalg::rational::Rational;
-use viewcert_audit::at_cameras::{SigmaError, read_table, rule, sigma};
+use viewcert_audit::at_cameras::{SigmaError, read_table, ruled, sigma};
 use viewcert_audit::enclosure::Matrix;
 use viewcert_audit::table::{BadRow, Row};
 use viewcert_audit::{Beside, Options as FloatOptions, claims};
@@ -227,18 +227,12 @@ pub(crate) fn audit_at_cameras(py: Python<'_>, at: &AtCameras, table: &str) -> P
     let stop = job.watch();
     let work = move || {
         let each = (1..).zip(&rows).map(|(number, claim)| {
-            let asked = claim.sigma.as_ref().and(claim.matrix);
-            let found = asked.map(|matrix| {
-                let at = (&*centres, &*here);
-                let bounds = (claim.norm.as_ref(), claim.sigma.as_ref());
-                sigma(matrix, &input.graph, at, bounds, &stop)
-            });
-            let found = found.transpose()?;
-            let ruling = rule(claim, &here, found.as_ref());
+            let at = (&*centres, &*here);
+            let (ruling, sigma) = ruled(claim, &input.graph, at, &stop)?;
             let report = AtCamerasReport {
                 input: &input,
                 here: &here,
-                sigma: asked.zip(found.as_ref()),
+                sigma: sigma.as_ref(),
                 ruled: Some((number, claim, &ruling)),
             };
             Ok(said(

@@ -191,8 +191,33 @@ pub fn sigma(
     found.ok_or(SigmaError::CentresAlone(matrix.name()))
 }
 
+/// A claim's ruling, and the singular value that it is about, if it claims one, with its matrix.
+pub type Found = (Ruling, Option<(Matrix, Enclosure)>);
+
+/// Rules on a claim about cameras of which the answer in its model is known.
+///
+/// # Errors
+/// See [`SigmaError`].
+pub fn ruled(
+    claim: &FloatClaim,
+    graph: &Graph,
+    (centres, here): (&Centres, &Here),
+    watch: &Watch,
+) -> Result<Found, SigmaError> {
+    let asked = claim.sigma.as_ref().and(claim.matrix).map(|matrix| {
+        let bounds = (claim.norm.as_ref(), claim.sigma.as_ref());
+        let found = sigma(matrix, graph, (centres, here), bounds, watch)?;
+        Ok::<_, SigmaError>((matrix, found))
+    });
+    let asked = asked.transpose()?;
+    Ok((
+        rule(claim, here, asked.as_ref().map(|(_, found)| found)),
+        asked,
+    ))
+}
+
 /// Rules on a claim, by the exact answer in its model at the cameras and, where one is claimed, the enclosed singular value.
-pub fn rule(claim: &FloatClaim, here: &Here, sigma: Option<&Enclosure>) -> Ruling {
+fn rule(claim: &FloatClaim, here: &Here, sigma: Option<&Enclosure>) -> Ruling {
     let (mut wrong, mut open) = (Vec::new(), None);
     // Where the equations are linear, a full rank leaves no other cameras at all.
     let is_only = here.model != Model::Projective || here.is_planar;

@@ -11,9 +11,9 @@ use std::path::{Path, PathBuf};
 use viewcert::Model;
 use viewcert::certificate::hex;
 use viewcert::decide::{
-    CountSolutions, Options, Question, Value, Verdict, VerdictError, decide, plane_rank,
+    CountSolutions, Options, Question, Value, Verdict, VerdictError, decide, rank_in_plane,
 };
-use viewcert::graph::{Graph, UnionFind, graph6};
+use viewcert::graph::{Graph, KnownParts, graph6};
 use viewcert::solutions::Number;
 use viewcert::watch::{Stopped, Watch};
 use viewcert_formats::read::{Graphs, graphs};
@@ -424,16 +424,7 @@ pub fn ruled(
 
 /// What holds if all centres lie in one plane, by counting (docs/theory, Corollary 13.4 and Theorem 13.23).
 fn planar(graph: &Graph, model: Model, watch: &Watch) -> Result<Json, Stopped> {
-    let (plane, mut sets) = (plane_rank(graph, watch)?, UnionFind::new(graph.nodes()));
-    let edges = graph.edges().iter();
-    let joined = edges
-        .filter(|&&(i, j)| sets.union(i as usize, j as usize))
-        .count();
-    let rank = match model {
-        Model::Projective => 4 * plane + 3 * joined,
-        Model::Calibrated => plane + joined,
-        Model::Affine => 4 * plane,
-    };
+    let rank = rank_in_plane(graph, model, &KnownParts::default(), watch)?;
     let required = model.required(graph.nodes());
     let verdict = if rank < required {
         "not-finite-solvable"

@@ -9,7 +9,7 @@ use serde::Serialize;
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 use viewcert::contract::Merge;
-use viewcert::decide::{Options, SharedBaseLines, Turns, Value, Verdict, plane_rank_with_parts};
+use viewcert::decide::{Options, SharedBaseLines, Turns, Value, Verdict, rank_in_plane};
 use viewcert::geometry::model::Model;
 use viewcert::graph::{Graph, UnionFind};
 use viewcert::watch::{Stopped, Watch};
@@ -49,9 +49,7 @@ pub struct Planar {
 }
 
 impl Planar {
-    /// Counts, with rank R the generic rank of the plane direction matrix: 4 rank R + 3 (n - k)
-    /// for J_P and rank R + n - k for N, k the number of connected components. Known parts are as
-    /// good as all their pairs (Theorem 4.14).
+    /// Counts. Known parts are as good as all their pairs (Theorem 4.14).
     ///
     /// # Errors
     /// If the work was stopped.
@@ -61,24 +59,11 @@ impl Planar {
         model: Model,
         watch: &Watch,
     ) -> Result<Self, Stopped> {
-        let known = &verdict.known_parts;
-        let plane = plane_rank_with_parts(graph, known, watch)?;
-        let mut parts = UnionFind::new(graph.nodes());
-        let edges = graph.edges().iter().copied();
-        let neighbours = known.iter().flat_map(|part| part.iter().zip(&part[1..]));
-        let edges = edges.chain(neighbours.map(|(&i, &j)| (i, j)));
-        let unions = edges.filter(|&(i, j)| parts.union(i as usize, j as usize));
-        // n - k: the edges of a spanning forest.
-        let joined = unions.count();
-        let rank = match model {
-            Model::Projective => 4 * plane + 3 * joined,
-            Model::Calibrated => plane + joined,
-            Model::Affine => 4 * plane,
-        };
+        let rank = rank_in_plane(graph, model, &verdict.known_parts, watch)?;
         let rank_required = model.required(graph.nodes());
-        let verdict = match model {
-            _ if rank < rank_required => "not-finite-solvable",
-            _ => "solvable",
+        let verdict = match rank < rank_required {
+            true => "not-finite-solvable",
+            false => "solvable",
         };
         Ok(Self {
             verdict,

@@ -242,7 +242,7 @@ pub struct AtCameras<'a> {
     /// What is so at the cameras.
     pub here: &'a Here,
     /// The singular value, where one is asked for.
-    pub sigma: Option<(Matrix, &'a Enclosure)>,
+    pub sigma: Option<&'a (Matrix, Enclosure)>,
     /// The row, with its number from 1, and the ruling on it.
     pub ruled: Option<(usize, &'a FloatClaim, &'a Ruling)>,
 }

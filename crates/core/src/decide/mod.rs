@@ -59,7 +59,7 @@ pub use noticed::{Closure, Groups, closure, groups};
 pub use options::{Options, Prime};
 pub(crate) use own_frame::OwnFrameEvidence;
 pub use own_frame::{OwnFrame, TurningPart};
-pub use plane_piece::{plane_rank, plane_rank_with_parts};
+pub use plane_piece::{plane_rank, rank_in_plane};
 pub use question::{Arithmetic, CountSolutions, Known, Meaningless, Question};
 pub use solution_count::SolutionCount;
 pub use verdict::{Component, UnknownValue, Value, Verdict};

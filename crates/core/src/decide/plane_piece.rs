@@ -15,7 +15,7 @@ use crate::geometry::draw;
 use crate::geometry::draw::DrawKey;
 use crate::geometry::model::Model;
 use crate::geometry::plane_direction::PlaneDirections;
-use crate::graph::{Graph, KnownParts, core_sha256};
+use crate::graph::{Graph, KnownParts, UnionFind, core_sha256};
 use crate::linalg::prime::PrimeField;
 use crate::sparsity::Plane;
 use crate::watch::{Step, Stopped, Task, Watch};
@@ -46,13 +46,7 @@ pub fn plane_rank(graph: &Graph, watch: &Watch) -> Result<usize, Stopped> {
 }
 
 /// The same for a graph with known parts, which are bodies in the plane as well (Theorem 4.14).
-///
-/// # Errors
-/// If the work was stopped.
-///
-/// # Panics
-/// If a part has a node that the graph does not have.
-pub fn plane_rank_with_parts(
+fn plane_rank_with_parts(
     graph: &Graph,
     parts: &KnownParts,
     watch: &Watch,
@@ -74,6 +68,35 @@ pub fn plane_rank_with_parts(
     });
     let pieces: Vec<usize> = pieces.collect::<Result<_, Stopped>>()?;
     Ok(rigid.chain(pieces).sum())
+}
+
+/// The generic rank in a model if all centres lie in one plane: with rank R the generic rank of the
+/// plane direction matrix, 4 rank R + 3 (n - k) of J_P and rank R + n - k of N, k the number of
+/// connected components (Theorem 13.3).
+///
+/// # Errors
+/// If the work was stopped.
+///
+/// # Panics
+/// If a part has a node that the graph does not have.
+pub fn rank_in_plane(
+    graph: &Graph,
+    model: Model,
+    known: &KnownParts,
+    watch: &Watch,
+) -> Result<usize, Stopped> {
+    let plane = plane_rank_with_parts(graph, known, watch)?;
+    let mut sets = UnionFind::new(graph.nodes());
+    let neighbours = known.iter().flat_map(|part| part.iter().zip(&part[1..]));
+    let edges = graph.edges().iter().copied();
+    let edges = edges.chain(neighbours.map(|(&i, &j)| (i, j)));
+    // n - k: the edges of a spanning forest.
+    let joined = edges.filter(|&(i, j)| sets.union(i as usize, j as usize));
+    Ok(match model {
+        Model::Projective => 4 * plane + 3 * joined.count(),
+        Model::Calibrated => plane + joined.count(),
+        Model::Affine => 4 * plane,
+    })
 }
 
 /// The rank of R of a rigid graph with so many nodes, two at least.
