@@ -29,9 +29,9 @@ mod condensation;
 mod folder;
 mod foreseen;
 mod frames;
-#[cfg(test)]
-mod samples;
 mod task;
+#[cfg(test)]
+mod tests;
 mod words;
 
 pub use explain::{Explanation, explain};

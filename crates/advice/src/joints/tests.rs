@@ -1,5 +1,5 @@
 use super::*;
-use crate::samples::{clusters, found, frames, options, verdict};
+use crate::tests::{clusters, found, frames, options, verdict};
 use viewcert::graph::Displacements;
 use viewcert::{Model, decide};
 

@@ -4,7 +4,7 @@
 use super::*;
 use crate::condensation::without;
 use crate::parts::Parts;
-use crate::samples::{clusters, graphs, options, sequences, together, tracks, verdict};
+use crate::tests::{clusters, graphs, options, sequences, together, tracks, verdict};
 use crate::weak::without_nodes;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;

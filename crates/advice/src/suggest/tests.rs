@@ -1,6 +1,6 @@
 use super::*;
 use crate::condensation::with;
-use crate::samples::{clusters, found, graphs, options, verdict};
+use crate::tests::{clusters, found, graphs, options, verdict};
 use viewcert::Model;
 
 fn suggested(

@@ -1,5 +1,5 @@
 use super::*;
-use crate::samples::{clusters, graphs, options, sequences, together, tracks, verdict};
+use crate::tests::{clusters, graphs, options, sequences, together, tracks, verdict};
 use std::collections::BTreeSet;
 
 /// Pairs and images, each with its component.

@@ -1,6 +1,6 @@
 use super::*;
-use crate::samples::{found, frames, options, verdict};
 use crate::suggest::{Reason, Tried};
+use crate::tests::{found, frames, options, verdict};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::collections::BTreeSet;
