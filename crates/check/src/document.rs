@@ -5,10 +5,7 @@ mod number;
 pub(crate) mod own_frame;
 pub(crate) mod solutions;
 
-use crate::json::{
-    Big, Optional, Strict, Value, any_members, is_of_laboratory, objects, present, unknown,
-};
-use crate::rejection::{Checked, Failure};
+use crate::json::{Big, Optional, Value, any_members, is_of_laboratory, objects, present, unknown};
 use base_lines::{BaseLines, BaseLinesClaim};
 use own_frame::{OwnFrame, OwnFrameClaim};
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
@@ -17,13 +14,6 @@ use solutions::Solutions;
 use std::fmt;
 
 pub use number::Number;
-
-/// Reads a certificate.
-pub(crate) fn parse(text: &[u8]) -> Checked<Document> {
-    let document = serde_json::from_slice(text);
-    let Strict(document) = document.map_err(|error| Failure::rejected(error.to_string()))?;
-    Ok(document)
-}
 
 /// Nodes i < j (which the reader does not see to).
 pub(crate) type Pair = [u32; 2];

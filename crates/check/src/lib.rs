@@ -126,7 +126,7 @@ impl Certificate {
     /// # Errors
     /// What is wrong with it.
     pub fn parse(text: &[u8]) -> Result<Certificate, Failure> {
-        document::parse(text).map(Certificate)
+        json::parse(text).map(Certificate)
     }
 
     /// The hash of the graph that the certificate names, to find that graph in a file of many.

@@ -8,7 +8,6 @@ mod document;
 mod primes;
 
 pub use claim::VerifiedHere;
-pub(crate) use document::FORMAT;
 
 use crate::algebra::Field;
 use crate::bodies::Known;
@@ -16,6 +15,7 @@ use crate::core::Core;
 use crate::document::{Members, Model};
 use crate::draws;
 use crate::elimination::Echelon;
+use crate::json::{ensure_first, parse};
 use crate::kernel::{check_apart, edge_motion, plane_motion};
 use crate::limits::Meter;
 use crate::matrices::{bearings, plane_direction};
@@ -25,6 +25,7 @@ use crate::structure::{Part, Structure};
 use crate::{Graph, Limits};
 use centres::Centres;
 use claim::claim;
+pub(crate) use document::FORMAT;
 use document::{Class, Document, Piece, Split};
 use primes::{Primes, bound, error};
 
@@ -38,7 +39,9 @@ impl HereCertificate {
     /// # Errors
     /// What is wrong with it.
     pub fn parse(text: &[u8]) -> Result<Self, Failure> {
-        document::parse(text).map(HereCertificate)
+        let document: Document = parse(text)?;
+        ensure_first((&document.format, FORMAT), document.version)?;
+        Ok(HereCertificate(document))
     }
 
     /// Verifies it, for the given graph or the one that it holds.

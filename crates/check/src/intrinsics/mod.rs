@@ -11,6 +11,7 @@ use crate::bodies::Known;
 use crate::cameras::Stream;
 use crate::document::Model;
 use crate::elimination::{Echelon, Factors, SPARSE};
+use crate::json::{ensure_first, parse};
 use crate::limits::Meter;
 use crate::pivots::Pivots;
 use crate::rejection::{Checked, Failure, Within, ensure};
@@ -88,7 +89,9 @@ impl IntrinsicsCertificate {
     /// # Errors
     /// What is wrong with it.
     pub fn parse(text: &[u8]) -> Result<Self, Failure> {
-        document::parse(text).map(IntrinsicsCertificate)
+        let document: Document = parse(text)?;
+        ensure_first((&document.format, FORMAT), document.version)?;
+        Ok(IntrinsicsCertificate(document))
     }
 
     /// Verifies it, for the given graph or the one that it holds; if a hash of the classes is given, for
