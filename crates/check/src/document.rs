@@ -5,7 +5,7 @@ mod number;
 pub(crate) mod own_frame;
 pub(crate) mod solutions;
 
-use crate::json::{Big, Optional, Value, any_members, is_of_laboratory, objects, present, unknown};
+use crate::json::{Big, Optional, Value, kinds, objects};
 use base_lines::{BaseLines, BaseLinesClaim};
 use own_frame::{OwnFrame, OwnFrameClaim};
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
@@ -186,186 +186,58 @@ impl Value for Seed {
     }
 }
 
-/// Evidence of one of the kinds of section 7, or `draws` of section 9.
-#[derive(Debug)]
-pub(crate) enum Evidence {
-    Minor(Minor),
-    IntegerMinor(IntegerMinor),
-    PlaneFlow(PlaneFlow),
-    PlaneMinor(Minor),
-    Counting(Counting),
-    Draws(Draws),
-    Classes(Classes),
-    Kernel(Kernel),
-}
+/// A prime modulo which something is shown; `null` where it is shown over the integers.
+struct Prime(Option<u64>);
 
-/// Pivots at a draw modulo a prime: `minor` and `plane-minor`.
-#[derive(Debug)]
-pub(crate) struct Minor {
-    pub prime: u64,
-    pub seed: u64,
-    pub draw: u64,
-    pub rows: Vec<usize>,
-    pub cols: Vec<usize>,
-}
-
-#[derive(Debug)]
-pub(crate) struct IntegerMinor {
-    pub numerator: u64,
-    pub denominator: u64,
-    pub seed: u64,
-    pub draw: u64,
-    pub rows: Vec<usize>,
-    pub cols: Vec<usize>,
-    pub determinant: Option<Big<String>>,
-    pub prime: Option<u64>,
-    pub kernel: Vec<Vec<Big<String>>>,
-}
-
-#[derive(Debug)]
-pub(crate) struct PlaneFlow {
-    pub prime: u64,
-    pub seed: u64,
-    pub draw: u64,
-    pub rows: Vec<usize>,
-    pub cols: Vec<usize>,
-    pub flows: usize,
-    pub lambda_rows: Vec<usize>,
-    pub lambda_cols: Vec<usize>,
-}
-
-#[derive(Debug)]
-pub(crate) struct Counting {
-    pub blocks: Vec<Block>,
-    pub bound: i64,
-}
-
-#[derive(Debug)]
-pub(crate) struct Draws {
-    pub seed: u64,
-    pub count: u64,
-    pub rank: i64,
-}
-
-#[derive(Debug)]
-pub(crate) struct Classes {
-    pub classes: Vec<Class>,
-}
-
-#[derive(Debug)]
-pub(crate) struct Kernel {
-    pub prime: u64,
-    pub seed: u64,
-    pub draw: u64,
-    pub vector: Vec<Big<u64>>,
-}
-
-impl Evidence {
-    pub(crate) fn kind(&self) -> &'static str {
-        match self {
-            Evidence::Minor(_) => "minor",
-            Evidence::IntegerMinor(_) => "integer-minor",
-            Evidence::PlaneFlow(_) => "plane-flow",
-            Evidence::PlaneMinor(_) => "plane-minor",
-            Evidence::Counting(_) => "counting",
-            Evidence::Draws(_) => "draws",
-            Evidence::Classes(_) => "classes",
-            Evidence::Kernel(_) => "kernel",
-        }
+impl Value for Prime {
+    fn read<'de, D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let prime = Option::<Big<u64>>::read(from)?;
+        Ok(Prime(prime.map(u64::from)))
     }
 }
 
-any_members! {
+impl TryFrom<Prime> for u64 {
+    type Error = ();
+
+    fn try_from(Prime(prime): Prime) -> Result<u64, ()> {
+        prime.ok_or(())
+    }
+}
+
+impl From<Prime> for Option<u64> {
+    fn from(Prime(prime): Prime) -> Option<u64> {
+        prime
+    }
+}
+
+// The kinds of section 7, and `draws` of section 9.
+kinds! {
+    "evidence"
     Evidence {
-        prime: Option<Big<u64>>, seed: Big<u64>, draw: u64, rows: Vec<usize>, cols: Vec<usize>,
+        "minor" Minor { prime: u64, seed: u64, draw: u64, rows: Vec<usize>, cols: Vec<usize> }
+        "integer-minor" IntegerMinor {
+            numerator: u64, denominator: u64, seed: u64, draw: u64, rows: Vec<usize>,
+            cols: Vec<usize>, determinant: Option<Big<String>>, prime: Option<u64>,
+            kernel: Vec<Vec<Big<String>>>,
+        }
+        "plane-flow" PlaneFlow {
+            prime: u64, seed: u64, draw: u64, rows: Vec<usize>, cols: Vec<usize>, flows: usize,
+            lambda_rows: Vec<usize>, lambda_cols: Vec<usize>,
+        }
+        "plane-minor" PlaneMinor {
+            prime: u64, seed: u64, draw: u64, rows: Vec<usize>, cols: Vec<usize>,
+        }
+        "counting" Counting { blocks: Vec<Block>, bound: i64 }
+        "draws" Draws { seed: u64, count: u64, rank: i64 }
+        "classes" Classes { classes: Vec<Class> }
+        "kernel" Kernel { prime: u64, seed: u64, draw: u64, vector: Vec<Big<u64>> }
+    }
+    members {
+        prime: Prime, seed: Big<u64>, draw: u64, rows: Vec<usize>, cols: Vec<usize>,
         numerator: u64, denominator: u64, determinant: Option<Big<String>>,
         kernel: Vec<Vec<Big<String>>>,
         flows: usize, lambda_rows: Vec<usize>, lambda_cols: Vec<usize>,
         blocks: Vec<Block>, bound: i64, count: u64, rank: i64, classes: Vec<Class>,
         vector: Vec<Big<u64>>,
-    }
-}
-
-/// Takes a member that the kind has.
-macro_rules! own {
-    ($members:ident, $member:ident) => {
-        present($members.$member.take(), stringify!($member))?
-    };
-}
-
-impl AnyMembers {
-    fn into_value<E: Error>(mut self) -> Result<Evidence, E> {
-        let kind: String = present(self.kind.take(), "kind")?;
-        let evidence = match kind.as_str() {
-            "minor" => Evidence::Minor(self.minor()?),
-            "integer-minor" => Evidence::IntegerMinor(self.integer_minor()?),
-            "plane-flow" => Evidence::PlaneFlow(self.plane_flow()?),
-            "plane-minor" => Evidence::PlaneMinor(self.minor()?),
-            "counting" => Evidence::Counting(Counting {
-                blocks: own!(self, blocks),
-                bound: own!(self, bound),
-            }),
-            "draws" => Evidence::Draws(Draws {
-                seed: own!(self, seed).0,
-                count: own!(self, count),
-                rank: own!(self, rank),
-            }),
-            "classes" => Evidence::Classes(Classes {
-                classes: own!(self, classes),
-            }),
-            "kernel" => Evidence::Kernel(Kernel {
-                prime: self.own_prime()?,
-                seed: own!(self, seed).0,
-                draw: own!(self, draw),
-                vector: own!(self, vector),
-            }),
-            other if is_of_laboratory(other) => return Err(unknown(other)),
-            other => return Err(E::custom(format!("`{other}` is no kind of evidence"))),
-        };
-        self.nothing_left()?;
-        Ok(evidence)
-    }
-
-    /// Takes the member `prime`, where it must not be `null`.
-    fn own_prime<E: Error>(&mut self) -> Result<u64, E> {
-        let prime = own!(self, prime).ok_or_else(|| E::custom("`prime` is null"))?;
-        Ok(prime.0)
-    }
-
-    fn minor<E: Error>(&mut self) -> Result<Minor, E> {
-        Ok(Minor {
-            prime: self.own_prime()?,
-            seed: own!(self, seed).0,
-            draw: own!(self, draw),
-            rows: own!(self, rows),
-            cols: own!(self, cols),
-        })
-    }
-
-    fn integer_minor<E: Error>(&mut self) -> Result<IntegerMinor, E> {
-        Ok(IntegerMinor {
-            numerator: own!(self, numerator),
-            denominator: own!(self, denominator),
-            seed: own!(self, seed).0,
-            draw: own!(self, draw),
-            rows: own!(self, rows),
-            cols: own!(self, cols),
-            determinant: own!(self, determinant),
-            prime: own!(self, prime).map(|Big(prime)| prime),
-            kernel: own!(self, kernel),
-        })
-    }
-
-    fn plane_flow<E: Error>(&mut self) -> Result<PlaneFlow, E> {
-        Ok(PlaneFlow {
-            prime: self.own_prime()?,
-            seed: own!(self, seed).0,
-            draw: own!(self, draw),
-            rows: own!(self, rows),
-            cols: own!(self, cols),
-            flows: own!(self, flows),
-            lambda_rows: own!(self, lambda_rows),
-            lambda_cols: own!(self, lambda_cols),
-        })
     }
 }

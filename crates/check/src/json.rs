@@ -202,6 +202,12 @@ impl<T: Digits> Visitor<'_> for Decimal<T> {
     }
 }
 
+impl From<Big<u64>> for u64 {
+    fn from(Big(value): Big<u64>) -> u64 {
+        value
+    }
+}
+
 impl<T: Digits> Value for Big<T> {
     fn read<'de, D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         from.deserialize_str(Decimal(PhantomData))
@@ -325,10 +331,38 @@ macro_rules! objects {
 }
 pub(crate) use objects;
 
-/// Declares the members that objects of any `kind` may have, of which `into_value` makes a value. A name
-/// has one type in all kinds, so that `kind` need not be the first member.
-macro_rules! any_members {
-    ($name:ident { $($member:ident: $type:ty),* $(,)? }) => {
+/// What a kind makes of a member that it has.
+pub(crate) fn own<T: Value, U: TryFrom<T>, E: Error>(value: Option<T>, name: &str) -> Result<U, E> {
+    let value = present(value, name)?;
+    U::try_from(value).map_err(|_| Error::custom(format!("`{name}` is null")))
+}
+
+/// Declares objects of several kinds, each with its members; and for all members the types of their
+/// values. A name has one type in all kinds, so that `kind` need not be the first member.
+macro_rules! kinds {
+    ($what:literal $name:ident {
+        $($kind:literal $variant:ident { $($own:ident: $own_type:ty),* $(,)? })*
+    } members { $($member:ident: $type:ty),* $(,)? }) => {
+        $(
+            #[derive(Debug)]
+            pub(crate) struct $variant {
+                $(pub $own: $own_type),*
+            }
+        )*
+
+        #[derive(Debug)]
+        pub(crate) enum $name {
+            $($variant($variant)),*
+        }
+
+        impl $name {
+            pub(crate) fn kind(&self) -> &'static str {
+                match self {
+                    $(Self::$variant(_) => $kind),*
+                }
+            }
+        }
+
         #[derive(Default)]
         struct AnyMembers {
             kind: Option<String>,
@@ -360,12 +394,22 @@ macro_rules! any_members {
                 }
             }
 
-            /// Rejects members that the kind does not have: all that it has were taken.
-            fn nothing_left<E: serde::de::Error>(&self) -> Result<(), E> {
+            /// The value of its kind, which has all members that are there, and no others.
+            fn into_value<E: serde::de::Error>(mut self) -> Result<$name, E> {
+                let kind: String = $crate::json::present(self.kind.take(), "kind")?;
+                let value = match kind.as_str() {
+                    $($kind => $name::$variant($variant {
+                        $($own: $crate::json::own(self.$own.take(), stringify!($own))?),*
+                    }),)*
+                    other if $crate::json::is_of_laboratory(other) => {
+                        return Err($crate::json::unknown(other));
+                    }
+                    other => return Err(E::custom(format!("`{other}` is no kind of {}", $what))),
+                };
                 $(if self.$member.is_some() {
                     return Err($crate::json::unknown(stringify!($member)));
                 })*
-                Ok(())
+                Ok(value)
             }
         }
 
@@ -393,4 +437,4 @@ macro_rules! any_members {
         }
     };
 }
-pub(crate) use any_members;
+pub(crate) use kinds;

@@ -4,7 +4,7 @@
 use crate::algebra::Field;
 use crate::cameras::{self, Stream};
 use crate::core::Core;
-use crate::document::Minor;
+use crate::document::PlaneMinor;
 use crate::elimination::{Echelon, Factors};
 use crate::matrices::plane_direction;
 use crate::pivots::Pivots;
@@ -12,7 +12,11 @@ use crate::rejection::Checked;
 use crate::setting::{Lower, Setting};
 
 /// Verifies `plane-minor`: the rank of R at points modulo p (theory, Corollary 13.12).
-pub(crate) fn check_plane_minor(minor: &Minor, setting: &Setting, core: &Core) -> Checked<Lower> {
+pub(crate) fn check_plane_minor(
+    minor: &PlaneMinor,
+    setting: &Setting,
+    core: &Core,
+) -> Checked<Lower> {
     let field = &Field::new(minor.prime)?;
     let mut stream = Stream::new("draw", core.hashes(setting), minor.seed, minor.draw);
     let points = cameras::plane_points(&mut stream, field, core.nodes)?;

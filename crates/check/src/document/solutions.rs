@@ -1,7 +1,7 @@
 //! The text of section 12 as typed values.
 
-use crate::json::{Big, Optional, Value, any_members, objects, present};
-use serde::de::{Deserializer, Error};
+use crate::json::{Big, Optional, Value, kinds, objects};
+use serde::de::Deserializer;
 
 objects! {
     Solutions {
@@ -44,60 +44,17 @@ impl<T: Value> Value for Box<T> {
     }
 }
 
-/// A step that makes unknowns known.
-#[derive(Debug)]
-pub(crate) enum Step {
-    Linear(Linear),
-    Support(Support),
-}
-
-#[derive(Debug)]
-pub(crate) struct Linear {
-    pub freed: Vec<usize>,
-    pub settled: Vec<usize>,
-}
-
-#[derive(Debug)]
-pub(crate) struct Support {
-    pub unknowns: Vec<usize>,
-    pub bounds: Vec<usize>,
-    pub absent: Vec<Vec<usize>>,
-    pub minors: Vec<Minor>,
-}
-
-impl Step {
-    pub(crate) fn kind(&self) -> &'static str {
-        match self {
-            Step::Linear(_) => "linear",
-            Step::Support(_) => "support",
+// Steps that make unknowns known.
+kinds! {
+    "step"
+    Step {
+        "linear" Linear { freed: Vec<usize>, settled: Vec<usize> }
+        "support" Support {
+            unknowns: Vec<usize>, bounds: Vec<usize>, absent: Vec<Vec<usize>>, minors: Vec<Minor>,
         }
     }
-}
-
-any_members! {
-    Step {
+    members {
         freed: Vec<usize>, settled: Vec<usize>, unknowns: Vec<usize>, bounds: Vec<usize>,
         absent: Vec<Vec<usize>>, minors: Vec<Minor>,
-    }
-}
-
-impl AnyMembers {
-    fn into_value<E: Error>(mut self) -> Result<Step, E> {
-        let kind: String = present(self.kind.take(), "kind")?;
-        let step = match kind.as_str() {
-            "linear" => Step::Linear(Linear {
-                freed: present(self.freed.take(), "freed")?,
-                settled: present(self.settled.take(), "settled")?,
-            }),
-            "support" => Step::Support(Support {
-                unknowns: present(self.unknowns.take(), "unknowns")?,
-                bounds: present(self.bounds.take(), "bounds")?,
-                absent: present(self.absent.take(), "absent")?,
-                minors: present(self.minors.take(), "minors")?,
-            }),
-            other => return Err(E::custom(format!("`{other}` is no kind of step"))),
-        };
-        self.nothing_left()?;
-        Ok(step)
     }
 }
