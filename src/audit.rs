@@ -2,7 +2,7 @@
 //! given cameras.
 
 use super::certificates::Target;
-use super::input::InputArguments;
+use super::input::{self, InputArguments};
 use crate::given::{noted, too_many};
 use crate::here;
 use anyhow::{Context, Result, anyhow, bail, ensure};
@@ -21,6 +21,7 @@ use viewcert_audit::{Beside, Options, TOLERANCE};
 use viewcert_formats::{NamedGraph, cameras_beside, whole};
 use viewcert_report::audit::{AtCameras, Audit, Ruled, head};
 use viewcert_report::counted;
+use viewcert_report::json::write_failed;
 use viewcert_session::exit::{GOOD, NOT, TooLarge, ends_run};
 use viewcert_session::{Session, complain, outputs, printable};
 
@@ -113,10 +114,13 @@ pub(super) fn run(session: &Session, arguments: &AuditArguments) -> Result<u8> {
         "--tolerance: take a positive number"
     );
     if let Some(path) = &arguments.claims {
-        return all_claims(session, arguments, path);
+        let done = all_claims(session, arguments, path);
+        return input::recorded(arguments.json, path, done);
     }
     if let Some(path) = &arguments.cameras {
-        return at_given_cameras(session, arguments, path);
+        let done = at_given_cameras(session, arguments, path);
+        let about = arguments.float.as_deref().unwrap_or(path);
+        return input::recorded(arguments.json, about, done);
     }
     let (graphs, count) = (&arguments.graphs, arguments.graphs.len());
     let mut target = arguments.target(graphs, (count, "graph"))?;
@@ -219,6 +223,12 @@ fn all_claims(session: &Session, arguments: &AuditArguments, path: &Path) -> Res
             Err(error) => {
                 let place = format!("{}:{}", path.display(), row.line);
                 complain("verify", format_args!("{place}: {error:#}"))?;
+                let why = format!("{error:#}");
+                let written = match arguments.json {
+                    true => write_failed(&mut out, &place, &why),
+                    false => writeln!(out, "row {number:4}  {:13}  {}", "bad", printable(&why)),
+                };
+                written.context("standard output")?;
                 counts.0[3] += 1;
                 worst = worst.max(session.exit_code(&error));
             }

@@ -1,5 +1,6 @@
 //! Bounds on the entries of rational cameras.
 
+use std::fmt;
 use std::str::FromStr;
 use viewcert::geometry::draw::{MAX_DENOMINATOR, MAX_NUMERATOR};
 
@@ -10,6 +11,12 @@ pub struct Bounds {
     pub numerator: u64,
     /// The largest denominator.
     pub denominator: u64,
+}
+
+impl fmt::Display for Bounds {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{},{}", self.numerator, self.denominator)
+    }
 }
 
 impl FromStr for Bounds {

@@ -57,7 +57,8 @@ pub(super) fn run(session: &Session, plan: &Plan) -> Result<u8> {
             Ok(((input, _), found)) => {
                 let name = input.name.clone();
                 let done = found.and_then(|mut found| {
-                    let input = found.changed.take().unwrap_or(input);
+                    let mut input = found.changed.take().unwrap_or(input);
+                    input.read.options.extend(plan.said.clone());
                     work.report(&found, &input, start, out)
                 });
                 (name, done)

@@ -94,8 +94,11 @@ pub(super) fn read<'a>(
     input: &'a NamedGraph,
     one_frame: bool,
 ) -> Result<(Cow<'a, NamedGraph>, Known)> {
-    let given = viewcert_formats::given(given, input, one_frame)?;
-    Ok((noted(input, given.notes), given.known))
+    let found = viewcert_formats::given(given, input, one_frame)?;
+    Ok((
+        beside_file(input, found.notes, (given, one_frame)),
+        found.known,
+    ))
 }
 
 /// What a file gives, with the graph that has the notes on it.
@@ -118,13 +121,29 @@ pub(super) fn read_beside<'a>(
 ) -> Result<Beside<'a>> {
     Ok(match beside(given, input, model, one_frame)? {
         viewcert_formats::Beside::Cameras(cameras) => {
-            let input = noted(input, cameras.notes).into_owned();
+            let input = beside_file(input, cameras.notes, (given, one_frame)).into_owned();
             Beside::Cameras(input, cameras.centres)
         }
-        viewcert_formats::Beside::Known(given) => {
-            Beside::Known(noted(input, given.notes), given.known)
-        }
+        viewcert_formats::Beside::Known(found) => Beside::Known(
+            beside_file(input, found.notes, (given, one_frame)),
+            found.known,
+        ),
     })
+}
+
+/// A graph with the notes on a file, which its records name.
+fn beside_file<'a>(
+    input: &'a NamedGraph,
+    notes: Vec<String>,
+    (file, one_frame): (Option<&Path>, bool),
+) -> Cow<'a, NamedGraph> {
+    let mut input = noted(input, notes);
+    if let Some(file) = file {
+        let options = &mut input.to_mut().read.options;
+        options.insert("given".to_owned(), file.display().to_string());
+        options.extend(one_frame.then(|| ("one-frame".to_owned(), String::new())));
+    }
+    input
 }
 
 /// A graph with more notes.

@@ -16,7 +16,7 @@ use viewcert_formats::{
 use viewcert_report::counted;
 use viewcert_report::json::write_failed;
 use viewcert_session::exit::{GOOD, ends_run};
-use viewcert_session::{Session, complain, printable};
+use viewcert_session::{Session, complain, outputs, printable};
 
 /// What the graphs' files are, for those that do not show it.
 #[derive(Args)]
@@ -269,6 +269,19 @@ pub(super) fn failed(
         ),
     };
     written.context("standard output")
+}
+
+/// What a command with one answer about this input has done; with JSON, a failure has a record too.
+///
+/// # Errors
+/// That of the command; if the record cannot be written.
+pub(super) fn recorded(json: bool, input: &Path, done: Result<u8>) -> Result<u8> {
+    if let (true, Err(error)) = (json, &done) {
+        let mut out = outputs::text(&[]);
+        failed(&mut out, (&[], true), &input.to_string_lossy(), error)?;
+        out.flush().context("standard output")?;
+    }
+    done
 }
 
 /// Why a graph has no answer, without its name.

@@ -1,6 +1,6 @@
 //! `verify lists GRAPH FILE...`: whether lists of images are whole, and what their overlaps fix.
 
-use super::input::{InputArguments, ensure_not_of_tracks};
+use super::input::{InputArguments, ensure_not_of_tracks, recorded};
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 use std::collections::BTreeSet;
@@ -63,7 +63,9 @@ impl Asked<'_> {
         let mut input = first(self.graph, &self.options)?;
         session.hide();
         let by_tracks = input.database.is_some();
-        if !by_tracks {
+        if by_tracks {
+            input.read.options = self.of_tracks.given();
+        } else {
             ensure_not_of_tracks(self.of_tracks_alone, self.graph)?;
         }
         let files = self.files.iter();
@@ -92,14 +94,15 @@ pub(super) fn run(session: &Session, arguments: &ListArguments) -> Result<u8> {
         of_tracks: arguments.input.of_tracks(),
         of_tracks_alone: arguments.input.of_tracks_alone(),
     };
-    asked.of(session, |report| {
+    let done = asked.of(session, |report| {
         outputs::answer(
             arguments.json,
             report.lists.determined,
             |out| report.write_json(out),
             |out| report.write(out),
         )
-    })
+    });
+    recorded(arguments.json, &arguments.graph, done)
 }
 
 /// The one graph of a file.

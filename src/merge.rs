@@ -1,6 +1,6 @@
 //! `verify merge MODEL MODEL [DATABASE]`: whether two models can be made one.
 
-use super::input::InputArguments;
+use super::input::{InputArguments, recorded};
 use anyhow::{Context, Result, ensure};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -114,14 +114,16 @@ pub(super) fn run(session: &Session, arguments: &MergeArguments) -> Result<u8> {
         database: arguments.database.as_deref(),
         options: arguments.input.of_tracks(),
     };
-    asked.of(session, |report| {
+    let done = asked.of(session, |report| {
         outputs::answer(
             arguments.json,
             report.merge.is_good(),
             |out| report.write_json(out),
             |out| report.write(out),
         )
-    })
+    });
+    let [one, other] = asked.models.map(Path::display);
+    recorded(arguments.json, format!("{one} and {other}").as_ref(), done)
 }
 
 fn read(session: &Session, path: &Path) -> Result<Model> {

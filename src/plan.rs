@@ -7,6 +7,7 @@
 use super::certificates::Target;
 use super::given;
 use anyhow::{Context, Result, bail, ensure};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use viewcert::Known;
 use viewcert::decide::Meaningless;
@@ -24,6 +25,8 @@ pub(super) struct Plan {
     pub(super) graphs: Vec<PathBuf>,
     /// How they are read.
     pub(super) read: ReadOptions,
+    /// What else was said of how they are decided, for the records.
+    pub(super) said: BTreeMap<String, String>,
     /// The file with what is given besides.
     pub(super) given: Option<PathBuf>,
     /// Whether that is in the frame of the directions.
@@ -113,6 +116,7 @@ impl Plan {
         Self {
             graphs: graphs.to_vec(),
             read,
+            said: BTreeMap::new(),
             given: None,
             one_frame: false,
             intrinsics: None,

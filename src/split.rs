@@ -1,5 +1,6 @@
 //! `verify split MODEL DIR`: a model taken apart where its observations do not hold it together.
 
+use super::input::recorded;
 use anyhow::{Context, Result, anyhow, ensure};
 use clap::Args;
 use std::path::PathBuf;
@@ -36,8 +37,14 @@ pub(super) struct SplitArguments {
     json: bool,
 }
 
-/// Reads the model, decides its tracks, writes the parts and reports.
+/// Takes the model apart; a failure has a record too.
 pub(super) fn run(session: &Session, arguments: &SplitArguments) -> Result<u8> {
+    let done = taken_apart(session, arguments);
+    recorded(arguments.json, &arguments.model, done)
+}
+
+/// Reads the model, decides its tracks, writes the parts and reports.
+fn taken_apart(session: &Session, arguments: &SplitArguments) -> Result<u8> {
     let start = Instant::now();
     let path = &arguments.model;
     ensure!(

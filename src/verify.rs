@@ -148,6 +148,21 @@ impl VerifyArguments {
             let field = PrimeField::new(prime).with_context(|| format!("--prime={prime}"))?;
             plan.prime = Prime::Fixed(field);
         }
+        let name = |value: clap::builder::PossibleValue| value.get_name().to_owned();
+        let method = self.method.to_possible_value().map(name);
+        let said = [
+            ("method", method.filter(|name| name != "bodies")),
+            ("rational", self.rational.map(|bounds| bounds.to_string())),
+            (
+                "solutions",
+                self.solutions
+                    .and_then(|how| Some(name(how.to_possible_value()?))),
+            ),
+        ];
+        let said = said
+            .into_iter()
+            .filter_map(|(name, value)| Some((name.to_owned(), value?)));
+        plan.said = said.collect();
         plan.asked.planar = self.planar;
         plan.products.certificate = self.certificate.clone();
         plan.products.proof = self.proof.clone();

@@ -122,7 +122,8 @@ fn claims_confirmed_refuted_open_and_bad() {
     // Unknown graph, no claim, not a number: each is said, and the good row is still decided.
     let run = audit("name,verdict,components\nsquare,,4\nnobody,,1\nsquare,,\nsquare,,x\n");
     assert_eq!(run.code, 2);
-    assert_eq!(lines(&run).len(), 1);
+    let found = lines(&run);
+    assert_eq!((found.len(), &found[0]["ruling"]), (4, &"confirmed".into()));
     for (row, word) in [
         (2, "unknown graph nobody"),
         (3, "nothing is claimed"),
@@ -132,6 +133,12 @@ fn claims_confirmed_refuted_open_and_bad() {
         let place = format!("claims.csv:{}: ", row + 1);
         let said = run.err.lines().find(|line| line.contains(&place));
         assert!(said.is_some_and(|line| line.contains(word)), "{}", run.err);
+        let error = found[row - 1]["error"].as_str();
+        assert!(
+            error.is_some_and(|error| error.contains(word)),
+            "{}",
+            run.out
+        );
     }
 }
 
@@ -413,6 +420,56 @@ fn the_variable_and_the_format_can_be_said() {
     assert!(run.err.contains("cannot be used with"), "{}", run.err);
 }
 
+/// A row says how its graph was read, and is decided so again; what rests on a file beside the graph is refused.
+#[test]
+fn a_row_says_how_its_graph_was_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let weights = "from,to,weight\n0,1,9\n1,2,9\n0,2,9\n2,3,1\n3,0,9\n";
+    let weights = graph_file(folder.path(), "weights.csv", weights);
+    let parts = graph_file(folder.path(), "parts.txt", "part 0 1 2 3\n");
+    let audit = |table: &str| {
+        let table = graph_file(folder.path(), "claims.csv", table);
+        verify(&["audit", "--claims", &table])
+    };
+    let read: &[&str] = &["--columns", "from,to,weight", "--min-weight", "2"];
+    for how in [&[][..], &["--method", "ranks"], &["--model", "affine"]] {
+        let table = verify(&[&["--table=csv", &weights], read, how].concat()).out;
+        assert!(table.contains(r#"""min-weight"":""2"""#), "{table}");
+        let run = audit(&table);
+        assert!(
+            run.out.contains("1 confirmed, 0 refuted, 0 not"),
+            "{table}{}",
+            run.out
+        );
+        let (head, row) = table.split_once('\n').unwrap();
+        let bare = format!("{head}\n{},,\n", row.split_once(",\"").unwrap().0);
+        let run = audit(&bare);
+        assert!(
+            run.out.contains("another graph is meant"),
+            "{bare}{}",
+            run.out
+        );
+    }
+    for form in [&["--table=csv"][..], &["--json"]] {
+        let given = [&[&*weights, "--given", &parts], read, form].concat();
+        let run = audit(&verify(&given).out);
+        assert_eq!(run.code, 2, "{}", run.out);
+        assert!(
+            run.err.contains("without which it is another claim"),
+            "{}",
+            run.err
+        );
+    }
+    for (options, why) in [
+        ("[1]", "no JSON object"),
+        (r#"{""mood"":""good""}"#, "unknown option"),
+    ] {
+        let run = audit(&format!("graph,rank,options\nBw,18,\"{options}\"\n"));
+        assert_eq!(run.code, 2, "{}", run.out);
+        assert!(run.err.contains(why), "{}", run.err);
+    }
+}
+
 /// The program's own table, by commas, semicolons or tabs, is one of claims; so are the published ones.
 #[test]
 fn tables_of_the_program_are_claims() {
@@ -605,5 +662,9 @@ fn records_are_confirmed_as_a_whole() {
     }
     // Records of other commands claim no verdict.
     let run = audit(&verify(&["models", &square, "--json"]).out);
-    assert_eq!((run.code, &*run.out), (2, ""), "{}", run.err);
+    assert!(
+        run.code == 2 && run.json()[0]["kind"] == "failed",
+        "{}",
+        run.out
+    );
 }

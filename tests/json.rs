@@ -3,7 +3,7 @@
 
 use crate::common::schema::{keeps_to, schema};
 use crate::common::{verify, verify_with};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 const GRAPHS: [&str; 3] = ["house.txt", "psi.txt", "minimal.g6"];
 
@@ -63,7 +63,12 @@ fn of_given_cameras() {
 #[test]
 fn of_audits() {
     let run = verify_with(SQUARE, &["audit", "--json", "-"]);
-    let line = keeps_to("audit", &run, &["program", "graph", "exact", "float"]).remove(0);
+    let line = keeps_to(
+        "audit",
+        &run,
+        &["program", "graph", "exact", "float", "seed", "prime"],
+    )
+    .remove(0);
     assert_eq!(line["exact"]["verdict"], "not-finite-solvable");
     let run = verify(&["audit", "--json", "--draws", "2", "examples/minimal.g6"]);
     keeps_to("audit", &run, &["agree"]);
@@ -71,7 +76,11 @@ fn of_audits() {
     let claims = folder.path().join("claims.csv");
     std::fs::write(&claims, "graph,verdict\nC~,solvable\nCl,solvable\n").unwrap();
     let run = verify(&["audit", "--json", "--claims", claims.to_str().unwrap()]);
-    let lines = keeps_to("ruling", &run, &["program", "graph", "ruling"]);
+    let lines = keeps_to(
+        "ruling",
+        &run,
+        &["program", "graph", "ruling", "seed", "prime", "read"],
+    );
     let rulings: Vec<&Value> = lines.iter().map(|line| &line["ruling"]).collect();
     assert_eq!(rulings, ["confirmed", "refuted"]);
     assert_eq!(lines[1]["graph"]["nodes"], 4);
@@ -110,6 +119,43 @@ fn records_hold_what_reproduces_them() {
     }
     let default = line(&["--method", "matrix"]);
     assert_eq!(default["prime"], (1_u64 << 61) - 1);
+    assert_eq!(default["read"]["options"], json!({"method": "matrix"}));
+    let rational = line(&["--rational=5,3", "--solutions=off"]);
+    let said = json!({"rational": "5,3", "solutions": "off"});
+    assert_eq!(rational["read"]["options"], said);
+
+    let run = verify_with(SQUARE, &["audit", "-", "--json", "--seed", "7"]);
+    let found = keeps_to("audit", &run, &["seed"]).remove(0);
+    assert_eq!(
+        (&found["seed"], &found["prime"]),
+        (&json!(7), &default["prime"])
+    );
+
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let (parts, claims) = (
+        file("p", "part 0 1 2\n"),
+        file("c", "graph,rank\nBw,0\nCl,0\n"),
+    );
+    let given = line(&["--given", &parts]);
+    assert_eq!(given["read"]["options"], json!({"given": parts}));
+    let given = verify_with(SQUARE, &["models", "-", "--json", "--given", &parts]);
+    assert_eq!(
+        keeps_to("models", &given, &["seed"])[0]["read"]["options"]["given"],
+        parts
+    );
+    let run = verify(&["audit", "--json", "--seed", "7", "--claims", &claims]);
+    let found = keeps_to("ruling", &run, &["seed", "model"]);
+    let by = found.iter().map(|line| (&line["seed"], &line["prime"]));
+    let by: Vec<_> = by.collect();
+    assert_eq!(
+        by,
+        [(&json!(7), &json!(null)), (&json!(7), &default["prime"])]
+    );
 }
 
 /// Three inputs, three records, of which that of a failure says why.
@@ -145,6 +191,76 @@ fn a_graph_that_fails_has_a_record() {
             "{text}"
         );
     }
+}
+
+/// So has a command about several files, with the path or the line that its error is about.
+#[test]
+fn a_command_that_fails_has_a_record() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let house = "examples/house.txt";
+    let bad = file("bad.csv", "graph,mood\nBw,good\n");
+    let rows = file("rows.csv", "graph,rank\nnone,1\nBw,22\n");
+    let absent = folder.path().join("absent").display().to_string();
+    let empty = folder.path().join("empty").display().to_string();
+    std::fs::create_dir(&empty).unwrap();
+    for (words, name, why) in [
+        (&["split", &*absent, "parts"][..], &*absent, "no folder"),
+        (&["split", &empty, "parts"], &empty, ""),
+        (
+            &["merge", &absent, &empty],
+            &format!("{absent} and {empty}"),
+            "no folder",
+        ),
+        (&["lists", &absent, &bad], &absent, "cannot be read"),
+        (&["lists", house, &bad], house, "no image"),
+        (&["audit", "--claims", &absent], &absent, "cannot be read"),
+        (&["audit", "--claims", &bad], &bad, "unknown column"),
+        (&["audit", house, "--cameras", house], house, "no cameras"),
+        (
+            &["audit", house, "--cameras", house, "--float", &bad],
+            &bad,
+            "unknown column",
+        ),
+    ] {
+        let run = verify(&[words, &["--json"]].concat());
+        let [line] = &run.json()[..] else {
+            panic!("{words:?}: {}", run.out)
+        };
+        assert_eq!((run.code, &line["kind"]), (2, &"failed".into()), "{line}");
+        assert!(schema().is_valid(line), "{line}");
+        assert_eq!(line["graph"]["name"], name);
+        let error = line["error"].as_str().unwrap();
+        assert!(
+            error.contains(why) && run.err.contains(error),
+            "{error}: {}",
+            run.err
+        );
+        assert!(
+            verify(words).out.is_empty() || words.contains(&"--cameras"),
+            "{words:?}"
+        );
+    }
+    let run = verify(&["audit", "--json", "--claims", &rows]);
+    let kinds = run
+        .json()
+        .iter()
+        .map(|line| line["kind"].to_string())
+        .collect::<Vec<_>>();
+    assert_eq!(
+        (run.code, &kinds[..]),
+        (2, &["\"failed\"".into(), "\"ruling\"".into()][..])
+    );
+    assert_eq!(run.json()[0]["graph"]["name"], format!("{rows}:2"));
+    let text = verify(&["audit", "--claims", &rows]).out;
+    assert!(
+        text.starts_with("row    1  bad            unknown graph none: "),
+        "{text}"
+    );
 }
 
 /// One verdict is spelled in one way: in words, in tables and in JSON.

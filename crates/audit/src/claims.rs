@@ -20,11 +20,14 @@ use viewcert_formats::read::{Graphs, graphs};
 use viewcert_formats::{NamedGraph, ReadOptions, read_graphs};
 
 /// The columns that claim something or name a graph.
-const KNOWN: &str = "graph graph6 file name verdict components components_ solutions rank rank_required model nodes \
+const KNOWN: &str = "graph graph6 file name verdict components components_ solutions rank rank_required model options nodes \
                      edges sha256 unique_by_contraction error";
 
 /// Those that say how an answer was found, or how a graph looks.
 const SILENT: &str = "seconds seconds_ density_ strength degrees girth automorphisms triangles";
+
+/// Options that say how a graph is decided, and not which question.
+const DECIDED: &str = "method rational solutions one-frame";
 
 /// Members of a record that say how its answer was found, or what follows from it: no claims of their own.
 const BESIDE: &str = "kind format program notes database tracks condition conditions strength error_log2 because \
@@ -134,6 +137,11 @@ pub fn claim(row: &Row) -> Result<Claim, BadRow> {
         Some(record) => claim.recorded(record)?,
         None => row.clone(),
     };
+    if let Some(given) = claim.row.cell("options") {
+        let given = serde_json::from_str(given)
+            .map_err(|_| BadRow(format!("options: {given} is no JSON object of strings")))?;
+        claim.read = options(given)?;
+    }
     let row = &claim.row;
     if let Some(error) = row.cell("error") {
         return Err(BadRow(format!(
@@ -165,6 +173,20 @@ pub fn claim(row: &Row) -> Result<Claim, BadRow> {
         )),
         false => Ok(claim),
     }
+}
+
+/// How the graph of a claim was read, by the options that were given.
+fn options(mut given: BTreeMap<String, String>) -> Result<ReadOptions, BadRow> {
+    given.retain(|name, _| DECIDED.split(' ').all(|other| other != name));
+    ReadOptions::of_given(&given).map_err(|name| {
+        BadRow(match &*name {
+            "given" => format!(
+                "it rests on what --given {} says, without which it is another claim",
+                given[&name]
+            ),
+            _ => format!("unknown option {name:?} in `read.options` or the column `options`"),
+        })
+    })
 }
 
 /// What stands in a JSON value, without quotes.
@@ -251,11 +273,14 @@ impl Claim {
             .and_then(Json::as_object)
             .into_iter()
             .flatten();
-        let given: BTreeMap<_, _> = given
+        let mut given: BTreeMap<_, _> = given
             .map(|(name, value)| (name.clone(), plain(value)))
             .collect();
-        let read = ReadOptions::of_given(&given);
-        self.read = read.map_err(|name| bad(&format!("unknown option {name:?} in `read`")))?;
+        // What is so at given cameras is another claim, beside the one on the graph.
+        if record.get("at_cameras").is_some() {
+            given.remove("given");
+        }
+        self.read = options(given)?;
         self.planar = record.get("planar").cloned();
         let mut members = record
             .as_object()

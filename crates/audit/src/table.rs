@@ -72,7 +72,7 @@ impl<'a> Columns<'a> {
         match (known.clone().any(|name| is(&name)), is_ignored) {
             (true, false) => Ok(true),
             (false, false) if !silent.clone().any(|name| is(&name)) => Err(format!(
-                "unknown column {column:?}; known are {}; correct it, leave it out, or name it with --ignore {column}",
+                "unknown column {column:?}; known are {}; correct it, leave it out, or name it with --ignore {column:?}",
                 known
                     .filter(|name| !name.ends_with('_'))
                     .collect::<Vec<_>>()

@@ -128,6 +128,7 @@ impl Audit<'_> {
             "graph": GraphLine::new(self.input, exact),
             "read": ReadLine::from(&self.input.read),
             "notes": self.input.notes,
+            "prime": exact.prime(),
             "exact": {
                 "verdict": exact.value.name(),
                 "strength": exact.value_claim().strength.name(),
@@ -148,7 +149,7 @@ impl Audit<'_> {
             "misjudged": float.misjudged,
             "reason": self.reason(),
         });
-        write_line(out, "audit", &line)
+        write_line(out, "audit", Some(exact.seed), &line)
     }
 }
 
@@ -208,13 +209,16 @@ impl Ruled {
             "ruling": self.ruling.said().0,
             "reason": self.ruling.said().1,
             "graph": GraphLine::new(&self.input, exact),
+            "read": ReadLine::from(&self.input.read),
+            "model": exact.model.name(),
             "verdict": exact.value.name(),
             "strength": exact.value_claim().strength.name(),
             "components": exact.components.len(),
             "rank": exact.rank,
+            "prime": exact.prime(),
             "certificate": self.certificate.as_ref().map(|path| path.display().to_string()),
         });
-        write_line(out, "ruling", &line)
+        write_line(out, "ruling", Some(exact.seed), &line)
     }
 }
 
@@ -306,6 +310,7 @@ impl AtCameras<'_> {
             "ruling": self.ruled.map(|(.., ruling)| ruling.said().0),
             "reason": self.ruled.map(|(.., ruling)| ruling.said().1),
             "graph": GraphLine::of(self.input),
+            "read": ReadLine::from(&self.input.read),
             "model": here.model.name(),
             "verdict": if here.is_determined() { "determined" } else { "not-determined" },
             "strength": here.rank.strength.name(),
@@ -317,6 +322,6 @@ impl AtCameras<'_> {
             "centres_sha256": hex(&here.sha256),
             "notes": self.input.notes,
         });
-        write_line(out, "float_ruling", &line)
+        write_line(out, "float_ruling", None, &line)
     }
 }

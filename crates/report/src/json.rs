@@ -34,18 +34,21 @@ struct Signed<'a, T> {
     kind: &'static str,
     format: u32,
     program: Program,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    seed: Option<u64>,
     #[serde(flatten)]
     line: &'a T,
 }
 
-/// Writes a record of this kind as one line of JSON, with the program and its version: every `--json` is of
-/// such lines. Their schema is docs/report.schema.json.
+/// Writes a record of this kind as one line of JSON, with the program and its version, and the seed where cameras
+/// are drawn: every `--json` is of such lines. Their schema is docs/report.schema.json.
 ///
 /// # Errors
 /// Those of the writer.
 pub fn write_line(
     out: &mut impl Write,
     kind: &'static str,
+    seed: Option<u64>,
     line: &impl Serialize,
 ) -> io::Result<()> {
     let program = Program {
@@ -56,6 +59,7 @@ pub fn write_line(
         kind,
         format: FORMAT,
         program,
+        seed,
         line,
     };
     serde_json::to_writer(&mut *out, &signed)?;
@@ -95,7 +99,6 @@ struct Line<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     at_cameras: Option<HereLine>,
     mode: &'static str,
-    seed: u64,
     seconds: f64,
     #[serde(flatten)]
     advice: &'a Advice,
@@ -297,7 +300,7 @@ pub fn write_failed(out: &mut impl Write, name: &str, error: &str) -> io::Result
         error: &'a str,
     }
     let graph = Name { name };
-    write_line(out, "failed", &Failed { graph, error })
+    write_line(out, "failed", None, &Failed { graph, error })
 }
 
 /// Writes the report as one line.
@@ -335,12 +338,11 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
             .as_ref()
             .map(|here| here.line(report.list_components)),
         mode: if report.rational { "rational" } else { "prime" },
-        seed: verdict.seed,
         seconds: report.time.as_secs_f64(),
         advice: report.advice,
         proof: report.proof,
     };
-    write_line(out, "report", &line)
+    write_line(out, "report", Some(verdict.seed), &line)
 }
 
 /// The components, with their members if these are listed; of a camera-point graph with cameras and points.

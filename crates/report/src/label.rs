@@ -83,6 +83,6 @@ impl<'a> LabelReport<'a> {
             automorphisms: self.invariants.group_order,
             triangles: self.invariants.triangles,
         };
-        write_line(out, "label", &line)
+        write_line(out, "label", None, &line)
     }
 }

@@ -1,11 +1,14 @@
 //! Lists of images and what they determine, for people and for programs.
 
-use super::{condition, counted, json::write_line, size_of, text};
+use super::json::{GraphLine, write_line};
+use super::read::ReadLine;
+use super::{condition, counted, size_of, text};
 use crate::shown::{SHOWN, some_names};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::time::Duration;
 use viewcert::Model;
+use viewcert::decide::Options;
 use viewcert::wording::printable;
 use viewcert_advice::lists::{Fixed, Found, Lists};
 use viewcert_formats::NamedGraph;
@@ -125,11 +128,9 @@ impl ListReport<'_> {
     /// # Errors
     /// Those of the writer.
     pub fn write_json(&self, out: &mut impl Write) -> io::Result<()> {
-        let graph = &self.input.graph;
         let line = Line {
-            input: &self.input.name,
-            images: graph.nodes(),
-            pairs: graph.edges().len(),
+            graph: GraphLine::of(self.input),
+            read: ReadLine::from(&self.input.read),
             notes: &self.input.notes,
             by: self.by,
             condition: condition::of_photographs(self.input, Model::Calibrated)
@@ -137,7 +138,7 @@ impl ListReport<'_> {
             lists: self.lists,
             seconds: self.time.as_secs_f64(),
         };
-        write_line(out, "lists", &line)
+        write_line(out, "lists", Some(Options::default().seed), &line)
     }
 }
 
@@ -169,9 +170,8 @@ fn found(list: &Found) -> String {
 
 #[derive(Serialize)]
 struct Line<'a> {
-    input: &'a str,
-    images: usize,
-    pairs: usize,
+    graph: GraphLine<'a>,
+    read: ReadLine<'a>,
     notes: &'a [String],
     by: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]

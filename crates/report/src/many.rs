@@ -2,12 +2,13 @@
 
 use super::text::{seconds, strength};
 use super::{Report, counted};
+use serde_json::json;
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::time::Duration;
 use viewcert::decide::{Value, Verdict};
 use viewcert::wording::printable;
-use viewcert_formats::csv;
+use viewcert_formats::{ReadAs, csv};
 
 /// How a table is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,7 +22,7 @@ pub enum Format {
 }
 
 /// The columns of comma-separated values.
-const COLUMNS: [&str; 11] = [
+const COLUMNS: [&str; 12] = [
     "name",
     "nodes",
     "density_percent",
@@ -32,6 +33,7 @@ const COLUMNS: [&str; 11] = [
     "seconds",
     "solutions",
     "model",
+    "options",
     "error",
 ];
 
@@ -138,6 +140,7 @@ impl Table {
                         &seconds,
                         &solutions,
                         verdict.model.name(),
+                        &options(&report.input.read),
                         "",
                     ],
                 )?;
@@ -243,6 +246,14 @@ fn solutions(verdict: &Verdict) -> String {
         (least, Some(most)) if least == most => least.to_string(),
         (least, Some(most)) => format!("{least}-{most}"),
         (least, None) => format!("{least}-"),
+    }
+}
+
+/// The options by which a graph was read and decided, as records have them; nothing if none were given.
+fn options(read: &ReadAs) -> String {
+    match read.options.is_empty() {
+        true => String::new(),
+        false => json!(read.options).to_string(),
     }
 }
 

@@ -1,6 +1,7 @@
 //! Two models and what they share, for people and for programs.
 
 use super::json::{GraphLine, write_line};
+use super::read::ReadLine;
 use super::{counted, text};
 use crate::advice::suggestions as write_suggestions;
 use crate::condition::RIGHT;
@@ -259,6 +260,7 @@ impl MergeReport<'_> {
             graph: self
                 .tracks
                 .map(|(input, verdict)| GraphLine::new(input, verdict)),
+            read: self.tracks.map(|(input, _)| ReadLine::from(&input.read)),
             notes: self.tracks.map_or(&[][..], |(input, _)| &input.notes),
             merge: self.merge,
             condition: self.condition(),
@@ -267,7 +269,8 @@ impl MergeReport<'_> {
             next: [Next { command, purpose }],
             seconds: self.time.as_secs_f64(),
         };
-        write_line(out, "merge", &line)
+        let seed = self.tracks.map(|(_, verdict)| verdict.seed);
+        write_line(out, "merge", seed, &line)
     }
 }
 
@@ -346,6 +349,8 @@ struct Line<'a> {
     models: &'a [String; 2],
     #[serde(skip_serializing_if = "Option::is_none")]
     graph: Option<GraphLine<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    read: Option<ReadLine<'a>>,
     notes: &'a [String],
     #[serde(flatten)]
     merge: &'a Merge,

@@ -146,7 +146,6 @@ struct Line<'a> {
     parts: Option<usize>,
     read: ReadLine<'a>,
     notes: &'a [String],
-    seed: u64,
     models: Vec<ModelLine>,
     changes: Vec<ChangeLine>,
 }
@@ -204,12 +203,11 @@ pub fn json(
         parts: parts(verdicts[0]),
         read: ReadLine::from(&input.read),
         notes: &input.notes,
-        seed: verdicts[0].seed,
         models: verdicts
             .iter()
             .map(|verdict| ModelLine::new(input, verdict))
             .collect(),
         changes: changes.collect(),
     };
-    write_line(out, "models", &line)
+    write_line(out, "models", Some(verdicts[0].seed), &line)
 }

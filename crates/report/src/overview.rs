@@ -709,10 +709,10 @@ impl Overview<'_> {
             no_model: self.no_model(),
             follows: self.follows(),
             next: &self.next,
-            seed: decided.map(|report| report.verdict.seed),
             seconds: self.time.as_secs_f64(),
         };
-        write_line(out, "overview", &line)
+        let seed = decided.map(|report| report.verdict.seed);
+        write_line(out, "overview", seed, &line)
     }
 }
 
@@ -752,7 +752,6 @@ struct Line<'a> {
     no_model: Option<String>,
     follows: Follows,
     next: &'a [Next],
-    seed: Option<u64>,
     seconds: f64,
 }
 

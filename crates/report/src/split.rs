@@ -217,7 +217,7 @@ impl SplitReport<'_> {
             why: self.why(),
             seconds: self.time.as_secs_f64(),
         };
-        write_line(out, "split", &line)
+        write_line(out, "split", None, &line)
     }
 }
 

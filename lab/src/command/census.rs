@@ -119,5 +119,5 @@ fn json(out: &mut impl Write, nodes: usize, row: &Row) -> std::io::Result<()> {
             serde_json::Value::Object(counts.collect()),
         );
     }
-    write_line(out, "census", &line)
+    write_line(out, "census", Some(Options::default().seed), &line)
 }

@@ -71,7 +71,7 @@ pub fn run(session: &Session, arguments: &CompareArguments) -> Result<u8> {
     let each = |out: &mut _, input: &NamedGraph, _| {
         let found = compare(arguments, &field, input).with_context(|| input.name.clone())?;
         if arguments.json {
-            comparison::json(out, input, &found)?;
+            comparison::json(out, (input, arguments.seed), &found)?;
         } else {
             comparison::text(out, input, &found)?;
         }

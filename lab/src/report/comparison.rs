@@ -189,7 +189,11 @@ impl From<&Line> for JsonLine {
 ///
 /// # Errors
 /// Those of the writer.
-pub fn json(out: &mut impl Write, input: &NamedGraph, found: &Comparison) -> io::Result<()> {
+pub fn json(
+    out: &mut impl Write,
+    (input, seed): (&NamedGraph, u64),
+    found: &Comparison,
+) -> io::Result<()> {
     let is_checked = found.affine_f.is_none() && found.computed() > 0;
     let line = Json {
         graph: GraphLine::of(input),
@@ -208,7 +212,7 @@ pub fn json(out: &mut impl Write, input: &NamedGraph, found: &Comparison) -> io:
         affine_f: found.affine_f,
         formulations: found.lines.iter().map(JsonLine::from).collect(),
     };
-    write_line(out, "comparison", &line)
+    write_line(out, "comparison", Some(seed), &line)
 }
 
 /// Rows and columns as a chart, as in the paper's figure of the sizes.

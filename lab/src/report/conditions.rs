@@ -196,5 +196,5 @@ pub fn json(out: &mut impl Write, input: &NamedGraph, found: &[Condition]) -> io
         result: conclusion(found),
         conditions,
     };
-    write_line(out, "conditions", &line)
+    write_line(out, "conditions", None, &line)
 }
