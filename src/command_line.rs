@@ -90,7 +90,9 @@ impl<'a> Line<'a> {
                 && self.option(&self.words[at - 1]).is_some_and(may_be_alone)
                 && (self.words.iter().filter(|word| is_free(word)).count() > 1 || is_missing(self))
             {
-                self.words.swap(at - 1, at);
+                let option = self.words.remove(at - 1);
+                let end = self.words.iter().position(|word| word == "--");
+                self.words.insert(end.unwrap_or(self.words.len()), option);
             }
         }
     }
@@ -148,8 +150,9 @@ impl<'a> Line<'a> {
     fn of<P: Parser>(&self, command: &'a Command) -> Option<(Self, Vec<String>)> {
         let mut line = self.clone();
         line.command = command;
-        line.words = self.not_overwritten(command);
-        let mut left_out = Vec::new();
+        let mut left_out;
+        (line.words, left_out) = self.without_files(command);
+        line.free_databases::<P>();
         // Each step takes a word away, or names what is missing.
         for _ in 0..=2 * self.words.len() + 2 {
             let error = match line.parsed::<P>() {
@@ -164,8 +167,19 @@ impl<'a> Line<'a> {
                     .words
                     .iter()
                     .position(|word| word == unknown.as_str() || name(word) == Some(unknown))?,
-                (ErrorKind::ArgumentConflict, _) => {
-                    line.words.iter().position(|word| name(word).is_none())?
+                (ErrorKind::ArgumentConflict, invalid) => {
+                    let positional = |at: &usize| {
+                        name(&line.words[*at]).is_none()
+                            && (*at == 0 || !self.takes_next(&line.words[at - 1]))
+                    };
+                    let option = match invalid {
+                        Some(ContextValue::String(found)) => found.split([' ', '=']).next(),
+                        _ => None,
+                    };
+                    let option =
+                        |at: &usize| name(&line.words[*at]).is_some_and(|n| Some(n) == option);
+                    let all = 0..line.words.len();
+                    all.clone().find(positional).or(all.clone().find(option))?
                 }
                 (ErrorKind::MissingRequiredArgument, Some(ContextValue::Strings(missing))) => {
                     let missing = missing.iter().flat_map(|what| what.split(' '));
@@ -185,25 +199,28 @@ impl<'a> Line<'a> {
         None
     }
 
-    /// The words without those that another command would write to.
-    fn not_overwritten(&self, command: &Command) -> Vec<OsString> {
-        let value = |of: &Command, at: usize| {
+    /// The words without those that one of two commands writes to or reads in its own way, and those that are left
+    /// out.
+    fn without_files(&self, command: &Command) -> (Vec<OsString>, Vec<String>) {
+        let is_file = |of: &Command, at: usize| {
             let all: Vec<&Arg> = of.get_positionals().collect();
-            let arg = all.get(at).or(all.last())?;
-            Some(arg.get_value_names()?.first()?.to_string())
+            let names = all
+                .get(at)
+                .or(all.last())
+                .and_then(|arg| arg.get_value_names());
+            names.is_some_and(|names| matches!(&*names[0], "FILE" | "DIR"))
         };
-        let (mut at, mut after, mut kept) = (0, false, Vec::new());
+        let (mut at, mut after, mut kept, mut left_out) = (0, false, Vec::new(), Vec::new());
         for word in &self.words {
             let is_positional = name(word).is_none() && !after;
             after = self.takes_next(word);
-            let meant = value(command, at);
-            let is_output = matches!(meant.as_deref(), Some("FILE" | "DIR"));
-            if !is_positional || !is_output || value(self.command, at) == meant {
-                kept.push(word.clone());
+            match is_positional && (is_file(self.command, at) || is_file(command, at)) {
+                true => left_out.push(word.to_string_lossy().into_owned()),
+                false => kept.push(word.clone()),
             }
             at += usize::from(is_positional);
         }
-        kept
+        (kept, left_out)
     }
 
     /// Whether the value of an option of any command is the word behind it.

@@ -47,7 +47,7 @@ pub use overview::Asked as OverviewAsked;
 use anyhow::{Result, bail};
 use clap::{CommandFactory, Parser, Subcommand};
 use std::ffi::OsString;
-use viewcert_session::Session;
+use viewcert_session::{Session, exit};
 
 /// Exact, certified solvability of viewing graphs.
 ///
@@ -169,8 +169,9 @@ fn run(session: &Session, arguments: &CommandLine) -> Result<u8> {
         Some(Command::Audit(arguments)) => audit::run(session, arguments),
         Some(Command::Models(arguments)) => models::run(session, arguments),
         None => {
-            no_command(&arguments.verify)?;
-            decisions::run(session, &arguments.verify.plan()?)
+            let verify = &arguments.verify;
+            verify.recorded(no_command(verify).map(|()| exit::GOOD))?;
+            decisions::run(session, &verify.plan()?)
         }
     }
 }

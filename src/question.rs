@@ -32,7 +32,7 @@ pub(super) struct QuestionArguments {
     components: bool,
     /// Print one JSON object a graph.
     #[arg(long)]
-    json: bool,
+    pub(super) json: bool,
     #[command(flatten)]
     input: InputArguments,
 }

@@ -2,6 +2,7 @@
 
 use super::bounds::Bounds;
 use super::given::GivenArguments;
+use super::input::recorded;
 use super::intrinsics::IntrinsicsArguments;
 use super::plan::{Form, Plan};
 use super::question::{GRAPHS, QuestionArguments};
@@ -114,6 +115,14 @@ impl VerifyArguments {
         let word = path.to_str()?;
         let letters = word.bytes().all(|b| b.is_ascii_alphabetic());
         (letters && !word.is_empty() && !path.exists()).then_some(word)
+    }
+
+    /// What was found out about the first graph before it is read; with JSON, a failure has a record too.
+    ///
+    /// # Errors
+    /// As of [`recorded`].
+    pub(super) fn recorded(&self, done: Result<u8>) -> Result<u8> {
+        recorded(self.question.json, &self.graphs[0], done)
     }
 
     /// The plan.

@@ -84,7 +84,7 @@ fn the_line_to_type_can_be_typed() {
     let graph = folder.path().join("a graph.txt");
     fs::write(&graph, "a b\nb c\na c\n").unwrap();
     let graph = graph.to_str().unwrap();
-    let cases: [(&[&str], &[&str]); 7] = [
+    let cases: [(&[&str], &[&str]); 10] = [
         (&[graph, "--suggest"], &["advise", graph, "--suggest"]),
         (
             &[graph, "--suggest", "3"],
@@ -104,6 +104,16 @@ fn the_line_to_type_can_be_typed() {
             &["advise", graph, "--weak", "images"],
             &["advise", graph, "--weak=images"],
         ),
+        // Files of one command are no graphs and no files of another.
+        (
+            &["export", graph, "parts", "--weak"],
+            &["advise", graph, "--weak"],
+        ),
+        (
+            &["lists", graph, graph, "--suggest"],
+            &["advise", graph, "--suggest"],
+        ),
+        (&["draw", graph, "a.svg", "--table"], &[graph, "--table"]),
     ];
     for (words, expected) in cases {
         let run = verify(words);
@@ -153,6 +163,21 @@ fn intrinsics_swallow_no_database() {
             run.err
         );
     }
+    let folder = tempfile::tempdir().unwrap();
+    let picture = folder.path().join("a.svg");
+    let run = verify(&["draw", "--intrinsics", database, picture.to_str().unwrap()]);
+    assert!(
+        run.code == expected.code && picture.is_file(),
+        "{}",
+        run.err
+    );
+    let run = verify(&["export", "--intrinsics", database, "parts"]);
+    assert!(
+        run.err
+            .contains(&format!("\n  verify {database} --intrinsics\n")),
+        "{}",
+        run.err
+    );
 }
 
 /// A filter that says nothing about an input is an error, in every command.
