@@ -9,6 +9,7 @@ use std::ffi::OsString;
 use std::path::Path;
 use viewcert_advice::export::shell;
 use viewcert_formats::colmap::is_database;
+use viewcert_session::printable;
 
 /// What the words mean; where they ask for help or are wrong, the process ends here.
 pub fn parse<P: Parser>(words: impl IntoIterator<Item = OsString>) -> P {
@@ -28,6 +29,12 @@ pub fn parse<P: Parser>(words: impl IntoIterator<Item = OsString>) -> P {
             None => {
                 // `-- --option` is a file of this name, which nobody means.
                 error.remove(ContextKind::Suggested);
+                for what in [ContextKind::InvalidArg, ContextKind::InvalidValue] {
+                    if let Some(ContextValue::String(word)) = error.get(what) {
+                        let word = printable(word);
+                        error.insert(what, ContextValue::String(word));
+                    }
+                }
                 error.exit()
             }
         },

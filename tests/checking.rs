@@ -331,13 +331,19 @@ fn names_imitate_nothing() {
     }
     // A label that is no file name.
     let list = folder.write("list.txt", "a\u{202e}b c\nc d\nd a\u{202e}b\n");
-    let run = verify(&[&list, "--components"]);
-    assert!(
-        !hostile(&run.out) && !hostile(&run.err),
-        "{}{}",
-        run.out,
-        run.err
-    );
+    let picture = folder.path("list.svg");
+    for arguments in [
+        &[&*list, "--components"][..],
+        &["convert", &list],
+        &["draw", &list, &picture],
+        &["catalog", &list],
+        &[&list, "--prime=\u{202e}"],
+    ] {
+        let run = verify(arguments);
+        let (out, err) = (&run.out, &run.err);
+        assert!(!hostile(out) && !hostile(err), "{arguments:?}: {out}{err}");
+    }
+    assert!(!hostile(&std::fs::read_to_string(picture).unwrap()));
     // No cell is a formula.
     folder.write("=1+1.txt", SQUARE);
     let table = Command::new(crate::common::program("verify"))

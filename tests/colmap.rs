@@ -524,6 +524,13 @@ fn a_message_for_everything_that_is_wrong() {
     bytes.pair(1, 2, &same(20), 2);
     bytes.execute("update images set name = cast(x'ff41' as text) where image_id = 3");
     refused(&bytes.path(), &[], &["the name of image 3 is no UTF-8"]);
+    for name in ["'a' || char(10) || 'VERIFIED'", "'a' || char(27) || '[2J'"] {
+        bytes.execute(&format!(
+            "update images set name = {name} where image_id = 3"
+        ));
+        let why = "the name of image 3 has a control character; rename the image";
+        refused(&bytes.path(), &[], &[why]);
+    }
     bytes.execute("update images set name = 'c' || image_id");
     bytes.execute("update two_view_geometries set rows = 21");
     assert_eq!(json_of(&bytes.path(), &[])["graph"]["edges"], 1);

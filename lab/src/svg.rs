@@ -93,7 +93,7 @@ mod tests {
         let text = svg.finish();
         assert!(text.contains(">a&lt;b&amp;c</text>"), "{text}");
         assert!(text.contains("viewBox=\"0 0 10 20\""));
-        assert_eq!(escaped("\"\u{1}'\u{7f}\""), "&quot;\u{fffd}'\u{fffd}&quot;");
+        assert_eq!(escaped("\"\u{1}'\u{202e}\""), "&quot;\\u0001'\\u202e&quot;");
         let titled = Svg::new(1, 1).titled("x & y").finish();
         assert!(
             titled.contains("<title>x &amp; y</title>\n<rect"),

@@ -32,7 +32,7 @@ CERTIFICATE and GRAPH are files (`-`: standard input). GRAPH is graph6 or pairs 
 `verify convert` writes them of any other; without it the certificate must hold the graph.
 
 What the certificate must be about (verified, but something else: exit code 1). With GRAPH or any of
-these the model is projective, and nothing else is supposed, unless it is named:
+these but --proofs-only the model is projective, and nothing else is supposed, unless it is named:
   --expect VERDICT     {}
   --model MODEL        projective, calibrated or affine
   --nodes N            the number of nodes

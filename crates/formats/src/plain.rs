@@ -8,6 +8,7 @@ use std::fmt::Write;
 use viewcert::Known;
 use viewcert::certificate::hex;
 use viewcert::graph::Displacements;
+use viewcert::wording::printable;
 
 /// A graph as pairs, below a comment by which [`read_graphs`](crate::read_graphs) knows them: first what its
 /// nodes are called, if not by their numbers. O(n + m).
@@ -17,7 +18,7 @@ pub fn pairs(input: &NamedGraph) -> String {
     for (node, number) in (0..).zip(0..graph.nodes()) {
         let (label, number) = (input.labels.label(node), number.to_string());
         if label != number {
-            text += &format!("# {number} {}\n", on_one_line(&label));
+            text += &format!("# {number} {}\n", printable(&label));
         }
     }
     for &(i, j) in graph.edges() {
@@ -29,19 +30,6 @@ pub fn pairs(input: &NamedGraph) -> String {
         let _ = writeln!(text, "{node}");
     }
     text
-}
-
-/// A name of which control characters are spelt out.
-fn on_one_line(name: &str) -> String {
-    let mut safe = String::new();
-    for c in name.chars() {
-        if c.is_control() {
-            safe.extend(c.escape_unicode())
-        } else {
-            safe.push(c)
-        }
-    }
-    safe
 }
 
 /// What is given, as both checkers read it: a part on each line, or the hash of displacements.
@@ -72,8 +60,8 @@ mod tests {
     #[test]
     fn no_name_reaches_into_another_line() {
         assert_eq!(
-            on_one_line("left \u{e9}\n0 2\r"),
-            "left \u{e9}\\u{a}0 2\\u{d}"
+            printable("left \u{e9}\n0 2\r"),
+            "left \u{e9}\\u000a0 2\\u000d"
         );
     }
 }

@@ -46,6 +46,9 @@ pub enum DatabaseError {
     /// A name that cannot be shown.
     #[error("the name of image {0} is no UTF-8")]
     NameNotUtf8(i64),
+    /// A name that would not stay on its line.
+    #[error("the name of image {0} has a control character")]
+    ControlInName(i64),
     /// Two images of one name.
     #[error("two images are called `{0}`")]
     NameTwice(String),
@@ -138,7 +141,9 @@ impl DatabaseError {
             Self::PosePrior { .. } => {
                 "write the pose priors again, all in one system of coordinates, or write the cameras whose position is known into a file, `position` before each"
             }
-            Self::NameNotUtf8(_) | Self::NameTwice(_) => "rename the image",
+            Self::NameNotUtf8(_) | Self::ControlInName(_) | Self::NameTwice(_) => {
+                "rename the image"
+            }
             Self::NoLists(_) => {
                 "tracks need the lists: give the database as the matching left it, or decide its pairs, without --tracks (of export: --model projective)"
             }

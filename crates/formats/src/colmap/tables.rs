@@ -67,7 +67,11 @@ pub(super) fn images(connection: &Connection) -> Result<Images, DatabaseError> {
             ValueRef::Text(bytes) => std::str::from_utf8(bytes),
             _ => return Err(DatabaseError::Damaged(format!("image {id} has no name"))),
         };
-        images.push((name.map_err(|_| DatabaseError::NameNotUtf8(id))?.into(), id));
+        let name = name.map_err(|_| DatabaseError::NameNotUtf8(id))?;
+        if name.contains(char::is_control) {
+            return Err(DatabaseError::ControlInName(id));
+        }
+        images.push((name.into(), id));
     }
     if images.is_empty() {
         return Err(DatabaseError::NoImages);

@@ -158,7 +158,10 @@ impl<R: Read> Fields for Binary<R> {
         }
         let name = String::from_utf8(name);
         let name = name.map_err(|_| self.corrupt("the name of an image is no UTF-8".to_owned()))?;
-        Ok(name.into())
+        match name.contains(char::is_control) {
+            true => Err(self.corrupt("the name of an image has a control character".to_owned())),
+            false => Ok(name.into()),
+        }
     }
 
     fn raw(&mut self, size: (usize, usize), what: &str, into: &mut Vec<u8>) -> Result<(), Fault> {
@@ -229,6 +232,9 @@ impl<R: Read> Fields for Words<R> {
     fn name(&mut self) -> Result<Box<str>, Fault> {
         match std::str::from_utf8(self.rest()) {
             Ok("") => Err(self.corrupt("the image has no name")),
+            Ok(name) if name.contains(char::is_control) => {
+                Err(self.corrupt("the name of the image has a control character"))
+            }
             Ok(name) => Ok(name.into()),
             Err(_) => Err(self.corrupt("the name of the image is no UTF-8")),
         }

@@ -5,6 +5,7 @@ use super::{Edge, Kind, Mark, Scene};
 use crate::counted;
 use std::collections::BTreeMap;
 use std::fmt::Write;
+use viewcert::wording::spelt;
 
 /// Colours that are told apart by people who do not tell red from green (P. Tol's bright scheme), and those of text
 /// on them.
@@ -411,7 +412,7 @@ pub fn document([width, height]: [f64; 2], title: &str, body: &str) -> String {
 }
 
 /// Text as it stands between tags, and in attributes with double quotes. XML has no way to write
-/// control characters; they are shown as unknown ones.
+/// control characters; they are spelt out, as on a terminal.
 pub fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
@@ -420,8 +421,8 @@ pub fn escaped(text: &str) -> String {
             '<' => escaped.push_str("&lt;"),
             '>' => escaped.push_str("&gt;"),
             '"' => escaped.push_str("&quot;"),
-            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => escaped.push('\u{fffd}'),
-            c => escaped.push(c),
+            '\n' | '\t' | '\u{fffe}' | '\u{ffff}' => escaped.push('\u{fffd}'),
+            c => spelt(c, &mut escaped),
         }
     }
     escaped

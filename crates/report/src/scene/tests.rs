@@ -157,5 +157,5 @@ fn images_are_joined_by_points() {
 #[test]
 fn text_is_escaped() {
     assert_eq!(escaped("a<b&c"), "a&lt;b&amp;c");
-    assert_eq!(escaped("\"\u{1}'\u{7f}\""), "&quot;\u{fffd}'\u{fffd}&quot;");
+    assert_eq!(escaped("\"\u{1}'\u{202e}\""), "&quot;\\u0001'\\u202e&quot;");
 }
