@@ -219,7 +219,8 @@ fn are_threes(graph: &Graph) -> bool {
         && !graph.edges().is_empty()
         && firsts.all(|k| {
             let blocks = of(k).as_chunks::<3>();
-            let is_block = |three: &[u32; 3]| three[0] % 3 == 0 && three[2] == three[0] + 2;
+            let is_block =
+                |three: &[u32; 3]| three[0].is_multiple_of(3) && three[2] == three[0] + 2;
             blocks.1.is_empty()
                 && blocks.0.iter().all(is_block)
                 && of(k) == of(k + 1)
