@@ -246,14 +246,14 @@ impl Scene {
                 }
             }
         }
-        let mut weights: BTreeMap<((u32, u32), Option<u32>, Kind), u32> = BTreeMap::new();
+        let mut weights = BTreeMap::new();
         for edge in &self.edges {
             let [a, b] = [edge.ends.0, edge.ends.1].map(|v| nearest[v as usize]);
             if let (Some(a), Some(b)) = (a, b)
                 && a != b
             {
                 let key = ((u32::min(a, b), u32::max(a, b)), edge.group, edge.kind);
-                *weights.entry(key).or_default() += edge.weight.max(1);
+                *weights.entry(key).or_insert(0u32) += edge.weight.max(1);
             }
         }
         let edges = weights
