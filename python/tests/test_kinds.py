@@ -126,6 +126,7 @@ def test_merged_pairs_are_noted() -> None:
 
 
 REFUSED: list[tuple[Any, str]] = [
+    ([(0, float("nan")), (1, 2)], "a node is nan"),
     ([], "the graph is empty"),
     (nx.Graph(), "the graph is empty"),
     (np.empty((0, 2), dtype=int), "the graph is empty"),
@@ -166,6 +167,9 @@ def test_what_is_no_graph_is_refused(graph: Any, message: str) -> None:
         ({"solutions": "all"}, "give 'quick' or 'full', or None"),
         ({"rational": True, "numerator": 1000}, "numerator=1000: give an integer from 1 to 100"),
         ({"rational": True, "model": "calibrated"}, "modulo primes alone"),
+        ({"planar": "yes"}, "planar='yes': give True or False"),
+        ({"counting": "no"}, "counting='no': give True or False"),
+        ({"rational": 9}, "rational=9: give True or False"),
         ({"time_limit": -1.0}, "time_limit=-1.0: give seconds from 0 on"),
         ({"time_limit": float("nan")}, "time_limit=nan: give seconds from 0 on"),
         ({"time_limit": "soon"}, "time_limit='soon': give seconds"),

@@ -33,6 +33,19 @@ def whole_if(what: str, value: Any, least: int, most: int) -> Optional[int]:
     return None if value is None else whole(what, value, least, most)
 
 
+def flag(what: str, value: Any) -> bool:
+    """A yes or no, which no word is: `bool("no")` is true.
+
+    Raises
+    ------
+    InputError
+        If it is neither.
+    """
+    if type(value).__name__ not in ("bool", "bool_"):
+        raise InputError(f"{what}={value!r}: give True or False")
+    return bool(value)
+
+
 def listed(what: str, values: Any) -> List[Any]:
     """All of several values.
 

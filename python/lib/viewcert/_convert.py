@@ -220,6 +220,8 @@ def _of_pairs(graph: Any, name: str, alone: List[Node], wish: Wish) -> Converted
         nodes: List[Node] = list(dict.fromkeys(chain(alone, ends(pairs))))
     except TypeError as error:
         raise InputError(f"a node cannot be told from others: {error}") from None
+    if any(isinstance(node, float) and node != node for node in nodes):
+        raise InputError("a node is nan, which is no name: leave out its pairs, or give it one")
     nodes, texts, labels = _ordered(nodes)
     number_of = {node: number for number, node in enumerate(nodes)}
     numbers = np.fromiter(map(number_of.__getitem__, ends(pairs)), np.uint32, 2 * len(pairs))

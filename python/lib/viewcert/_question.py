@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, Dict, Optional, get_args
 
-from ._arguments import one_of, whole, whole_if
+from ._arguments import flag, one_of, whole, whole_if
 from ._errors import InputError
 from ._graph import Graph
 from ._types import Counting, Model
@@ -33,12 +33,12 @@ def wanted(
     one_of("model", model, get_args(Model))
     if solutions is not None and solutions not in get_args(Counting):
         raise InputError(f"solutions={solutions!r}: give 'quick' or 'full', or None, which does not count")
-    if planar and model == "affine":
+    if flag("planar", planar) and model == "affine":
         raise InputError(
             "planar=True: affine cameras have no centres that could lie in a plane; leave it out"
         )
     bounds = None
-    if rational:
+    if flag("rational", rational):
         bounds = whole("numerator", numerator, 1, 100), whole("denominator", denominator, 1, 12)
     return {
         "model": model,
@@ -47,8 +47,8 @@ def wanted(
         "solutions": solutions,
         "bounds": bounds,
         "prime": whole_if("prime", prime, 5, 2**62 - 1),
-        "contraction": bool(contraction),
-        "counting": bool(counting),
+        "contraction": flag("contraction", contraction),
+        "counting": flag("counting", counting),
     }
 
 
