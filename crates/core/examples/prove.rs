@@ -17,7 +17,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let model = std::env::args().nth(2);
     let model: Model = model.map_or(Ok(Model::Projective), |word| word.parse())?;
     let question: Question = match model {
-        Model::Projective => Question::with_solutions(CountSolutions::Off).into(),
+        Model::Projective => Question::with_solutions(CountSolutions::Off),
         model => model.into(),
     };
     let options = Options::default().question(question);
