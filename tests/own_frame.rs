@@ -48,7 +48,7 @@ fn answers_by_hand() {
     let on_a_line = "position 1 0 0 0\nposition 2 1 0 0\nposition 3 2 0 0\n";
     let two = "# viewcert pairs\n0 1\n1 2\n0 2\n3 4\n4 5\n3 5\n";
     let apart = "position 0 0 0 0\nposition 1 1 0 0\nposition 2 0 1 0\nposition 3 5 0 0\nposition 4 6 0 0\n";
-    // Two paths of two triangles each: their given lines are parallel, or not.
+    // Two triangles with a node in common: their given lines are parallel, so that each turns about its own, or not.
     let hinge = "# viewcert pairs\n0 1\n1 2\n0 2\n2 3\n3 4\n2 4\n";
     let lines = |last: &str| {
         format!("position 0 0 0 0\nposition 1 1 0 0\nposition 3 7 2 1\nposition 4 {last}\n")
@@ -70,7 +70,7 @@ fn answers_by_hand() {
             format!("{apart}position 5 5 1 3\n"),
             (0, "solvable", true, 0),
         ),
-        (hinge, lines("8 2 1"), (1, "not-finite-solvable", false, 0)),
+        (hinge, lines("8 2 1"), (0, "finite-solvable", false, 0)),
         (hinge, lines("7 3 1"), (0, "solvable", true, 0)),
         // Positions in general position.
         (
