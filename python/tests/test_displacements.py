@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import pathlib
+import pickle
 from decimal import Decimal
 from fractions import Fraction
 
@@ -21,14 +22,14 @@ def test_two_rigs() -> None:
     alone = viewcert.verify(PAIRS, model="calibrated")
     assert (alone.value, alone.rank, alone.required) == ("not-finite-solvable", 6, 8)
     for model in ("calibrated", "focal"):
-        verdict = viewcert.verify(PAIRS, model=model, displacements=RIGS)
+        verdict = viewcert.verify(PAIRS, model=model, displacements=RIGS, one_frame=True)
         assert (verdict.value, verdict.rank, verdict.required) == ("solvable", 9, 9)
         assert verdict.displacements == [frozenset("ab"), frozenset("cd")]
         assert any("displacements" in condition for condition in verdict.conditions)
         certificate = verdict.certificate()
-        assert viewcert.check(certificate, PAIRS, displacements=RIGS, model="calibrated").displacements == 2
+        assert viewcert.check(certificate, PAIRS, displacements=RIGS, one_frame=True, model="calibrated").displacements == 2
         with pytest.raises(viewcert.Rejected, match="about the calibrated model, and projective is expected"):
-            viewcert.check(certificate, PAIRS, displacements=RIGS)
+            viewcert.check(certificate, PAIRS, displacements=RIGS, one_frame=True)
         with pytest.raises(viewcert.Rejected, match="supposed to be known, and none are given"):
             viewcert.check(certificate, PAIRS)
         verified = viewcert.check(verdict)
@@ -37,7 +38,7 @@ def test_two_rigs() -> None:
 
 
 def test_sets_that_meet_are_one() -> None:
-    verdict = viewcert.verify(PAIRS, model="calibrated", displacements=[("a", "b", "d"), ("b", "c")])
+    verdict = viewcert.verify(PAIRS, model="calibrated", displacements=[("a", "b", "d"), ("b", "c")], one_frame=True)
     assert verdict.displacements == [frozenset("abcd")]
     assert verdict.value == "solvable"
 
@@ -51,7 +52,7 @@ def test_given_vectors() -> None:
         ((0, "1/3", Decimal("-2.5")), "solvable", 9),
     ]:
         rigs = {("a", "b"): ("0.1", 0, 0), ("c", "d"): second}
-        verdict = viewcert.verify(pairs, model="calibrated", displacements=rigs)
+        verdict = viewcert.verify(pairs, model="calibrated", displacements=rigs, one_frame=True)
         assert (verdict.value, verdict.rank, verdict.required) == (value, rank, 9)
         assert verdict.displacements == [frozenset("ab"), frozenset("cd")]
         assert any("that are given" in condition for condition in verdict.conditions)
@@ -96,12 +97,38 @@ def test_the_program_says_the_same(program: Program, tmp_path: pathlib.Path) -> 
 def test_a_checker_that_is_given_the_vectors() -> None:
     pairs = [(0, 2), (3, 4), (5, 1)]
     rigs = {(0, 1): (1, 0, 0), (2, 3): (0, 1, 0), (4, 5): (1, 1, 1)}
-    verdict = viewcert.verify(pairs, model="calibrated", displacements=rigs)
+    verdict = viewcert.verify(pairs, model="calibrated", displacements=rigs, one_frame=True)
     assert verdict.vectors == rigs
     assert viewcert.check(verdict).value == verdict.value
     certificate = verdict.certificate()
-    assert viewcert.check(certificate, pairs, displacements=rigs, model="calibrated").value == verdict.value
+    named = {"displacements": rigs, "one_frame": True, "model": "calibrated"}
+    assert viewcert.check(certificate, pairs, **named).value == verdict.value
     for others in [{**rigs, (4, 5): (1, 1, 2)}, list(rigs), None]:
         with pytest.raises(viewcert.Rejected, match="displacements"):
             viewcert.check(certificate, pairs, displacements=others)
     assert viewcert.verify(pairs, model="calibrated", displacements=list(rigs)).vectors is None
+
+
+def test_a_frame_of_its_own() -> None:
+    """Nothing says how a graph is turned against the frame of what is given, unless something rigid in it does."""
+    star = [(0, 1), (0, 2), (0, 3)]
+    places = {(1, 2): (1, 0, 0), (1, 3): (0, 1, 0)}
+    line = {(1, 2): (1, 0, 0), (1, 3): (2, 0, 0)}
+    whole = [*star, (1, 2), (1, 3), (2, 3)]
+    for pairs, given, value, measured in [
+        # One camera sees three whose places are given: up to four solutions.
+        (star, places, "finite-solvable", "not-finite-solvable"),
+        (whole, places, "solvable", "solvable"),
+        (whole, line, "not-finite-solvable", "solvable"),
+    ]:
+        verdict = viewcert.verify(pairs, model="calibrated", displacements=given)
+        assert (verdict.value, verdict.measured, verdict.only_given) == (value, measured, [])
+        assert verdict.vectors == given
+        checked = viewcert.check(verdict)
+        assert (checked.own_frame, checked.value) == (value, measured)
+        certificate = verdict.certificate()
+        with pytest.raises(viewcert.Rejected, match="in a frame of their own"):
+            viewcert.check(certificate, pairs, displacements=given, one_frame=True, model="calibrated")
+        assert pickle.loads(pickle.dumps(verdict)).measured == measured
+    with pytest.raises(viewcert.InputError, match="one_frame: no displacements"):
+        viewcert.verify(star, model="calibrated", one_frame=True)

@@ -182,7 +182,7 @@ def test_what_certificates_suppose(tmp_path: pathlib.Path) -> None:
     pairs = [(0, 1), (1, 2), (2, 3), (1, 3)]
     plain = viewcert.verify(pairs)
     with_parts = viewcert.verify(pairs, parts=[[0, 1, 2]])
-    moved = viewcert.verify([(0, 2), (0, 3), (1, 2)], model="calibrated", displacements=[(0, 1), (2, 3)])
+    moved = viewcert.verify([(0, 2), (0, 3), (1, 2)], model="calibrated", displacements=[(0, 1), (2, 3)], one_frame=True)
     at = viewcert.at_cameras(plain, [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 3)])
     lines = [one.certificate(compact=True) for one in (plain, with_parts, moved)]
     (tmp_path / "all.jsonl").write_bytes(b"\n".join(line.strip() for line in lines) + b"\n")
