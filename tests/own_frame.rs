@@ -2,7 +2,7 @@
 //! against it is unknown. Truth is a second solution, or a rank by other means.
 
 use crate::common::{Run, data, first_checker, second_checker, verify};
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -131,6 +131,10 @@ fn answers_by_hand() {
             "--json",
         ]);
         let one = run.json().remove(0);
+        if alone > 0 {
+            assert_eq!(one["verdict"], "not-finite-solvable", "{one}");
+            assert_eq!(run.code, 1, "{one}");
+        }
         assert!(one["own_frame"].is_null(), "{one}");
         assert!(one["displacements"].is_object(), "{one}");
         let flag = verify(&[
@@ -212,6 +216,7 @@ fn equal_positions_are_one() {
 #[ignore = "needs python3"]
 fn certificates_and_both_checkers() {
     let chain = "# viewcert pairs\n0 1\n0 2\n0 3\n1 4\n2 4\n3 4\n1 5\n4 5\n";
+    let petersen = "# viewcert pairs\n0 1\n1 2\n2 3\n3 4\n4 0\n0 5\n1 6\n2 7\n3 8\n4 9\n5 7\n7 9\n9 6\n6 8\n8 5\n";
     let sparse = "position 1 0 0 0\nposition 2 1 0 0\nposition 3 0 1 0\nposition 4 3 5 1\n";
     for (pairs, known, value) in [
         (STAR, TRIANGLE, "finite-solvable"),
@@ -223,6 +228,18 @@ fn certificates_and_both_checkers() {
         ),
         (ALL, "displacement 0 1\ndisplacement 2 3\n", "solvable"),
         (chain, sparse, "solvable"),
+        // Rigid by its rank alone: no cycle has four nodes.
+        (
+            petersen,
+            "position 0 0 0 0\nposition 2 1 0 0\nposition 8 0 1 0\n",
+            "solvable",
+        ),
+        // Two parts, each with two positions.
+        (
+            "# viewcert pairs\n0 1\n1 2\n0 2\n3 4\n4 5\n3 5\n",
+            "position 0 0 0 0\nposition 1 1 0 0\nposition 3 5 0 0\nposition 4 6 2 0\n",
+            "not-finite-solvable",
+        ),
     ] {
         let files = Files::new();
         let graph = files.write("graph.txt", pairs);
@@ -294,39 +311,132 @@ fn certificates_and_both_checkers() {
         }
         // Each claim that says more, or rests on less, is rejected by both.
         let whole: Value = serde_json::from_slice(&fs::read(certificate).unwrap()).unwrap();
-        let mut others = Vec::new();
-        for other in ["solvable", "finite-solvable", "not-finite-solvable", "open"] {
-            let mut changed = whole.clone();
-            changed["claim"]["own_frame"]["value"] = other.into();
-            others.extend((other != value).then_some(changed));
-        }
-        for (member, by) in [("at_least", 1), ("at_most", -1), ("required", 1)] {
-            let mut changed = whole.clone();
-            let number = &mut changed["claim"]["own_frame"][member];
-            *number = (number.as_i64().unwrap() + by).into();
-            others.push(changed);
-        }
-        let mut changed = whole.clone();
-        changed["claim"]
-            .as_object_mut()
-            .unwrap()
-            .remove("own_frame");
-        others.push(changed);
-        let mut changed = whole.clone();
-        changed["own_frame"]["lower"]["rows"]
-            .as_array_mut()
-            .unwrap()
-            .pop();
-        others.push(changed);
-        let mut changed = whole.clone();
-        changed["own_frame"]["groups"][0][0] = 99.into();
-        others.push(changed);
-        for changed in others {
+        for changed in others(&whole, value) {
             let path = files.write("changed.json", &changed.to_string());
             for checker in [first_checker, second_checker] {
                 let run = checker(&[&path]);
-                assert_eq!(run.code, 1, "{}: {}{}", changed["claim"], run.out, run.err);
+                assert_eq!(run.code, 1, "{changed}: {}{}", run.out, run.err);
             }
         }
     }
+}
+
+/// Certificates that say more than one of this value, or rest on less; one for each condition of section 16.
+fn others(whole: &Value, value: &str) -> Vec<Value> {
+    let mut others = Vec::new();
+    let mut change = |change: &dyn Fn(&mut Value)| {
+        let mut changed = whole.clone();
+        change(&mut changed);
+        assert_ne!(changed, *whole);
+        others.push(changed);
+    };
+    for other in ["solvable", "finite-solvable", "not-finite-solvable", "open"] {
+        if other != value {
+            change(&|all| all["claim"]["own_frame"]["value"] = other.into());
+        }
+    }
+    for (member, by) in [("at_least", 1), ("at_most", -1), ("required", 1)] {
+        change(&|all| {
+            let number = &mut all["claim"]["own_frame"][member];
+            *number = (number.as_i64().unwrap() + by).into();
+        });
+    }
+    change(&|all| all["claim"]["own_frame"]["strength"] = "error-bound".into());
+    change(&|all| drop(all["claim"].as_object_mut().unwrap().remove("own_frame")));
+    change(&|all| drop(all.as_object_mut().unwrap().remove("own_frame")));
+    change(&|all| all["parts"] = json!([[0, 1]]));
+    // (F1), (F3)
+    change(&|all| all["own_frame"]["groups"][0][0] = 99.into());
+    change(&|all| {
+        all["own_frame"]["groups"][0]
+            .as_array_mut()
+            .unwrap()
+            .reverse()
+    });
+    change(&|all| all["own_frame"]["groups"] = json!([]));
+    if whole["own_frame"]["vectors"].is_array() {
+        change(&|all| drop(all["own_frame"]["vectors"][0].as_array_mut().unwrap().pop()));
+        change(&|all| all["own_frame"]["vectors"][0][0] = json!(["0", "0", "0"]));
+        change(&|all| {
+            let vectors = all["own_frame"]["vectors"][0].as_array_mut().unwrap();
+            for number in vectors
+                .iter_mut()
+                .flat_map(|vector| vector.as_array_mut().unwrap())
+            {
+                *number = (2 * number.as_str().unwrap().parse::<i64>().unwrap())
+                    .to_string()
+                    .into();
+            }
+        });
+    }
+    // (F4), (F5)
+    change(&|all| {
+        drop(
+            all["own_frame"]["lower"]["rows"]
+                .as_array_mut()
+                .unwrap()
+                .pop(),
+        )
+    });
+    change(&|all| {
+        for list in ["rows", "cols"] {
+            all["own_frame"]["lower"][list]
+                .as_array_mut()
+                .unwrap()
+                .pop();
+        }
+    });
+    change(&|all| all["own_frame"]["lower"]["cols"][0] = 9999.into());
+    // (F6)
+    if whole["own_frame"]["upper"].is_object() {
+        change(&|all| {
+            let bound = &mut all["own_frame"]["upper"]["bound"];
+            *bound = (bound.as_i64().unwrap() - 1).into();
+        });
+        change(&|all| {
+            drop(
+                all["own_frame"]["upper"]["blocks"]
+                    .as_array_mut()
+                    .unwrap()
+                    .pop(),
+            )
+        });
+        change(&|all| all["own_frame"]["upper"] = Value::Null);
+    }
+    if let [one, other] = &whole["own_frame"]["upper"]["blocks"]
+        .as_array()
+        .map_or(&[][..], |all| all)[..]
+    {
+        let of = |name: &str| {
+            [one, other]
+                .map(|block| block[name].as_array().unwrap().clone())
+                .concat()
+        };
+        let both = json!([{"bodies": of("bodies"), "edges": of("edges")}]);
+        change(&|all| all["own_frame"]["upper"]["blocks"] = both.clone());
+    }
+    // (F7)
+    if whole["own_frame"]["rigid"]
+        .as_array()
+        .is_some_and(|rigid| !rigid.is_empty())
+    {
+        change(&|all| all["own_frame"]["rigid"] = json!([]));
+        change(&|all| {
+            drop(
+                all["own_frame"]["rigid"][0]["edges"]
+                    .as_array_mut()
+                    .unwrap()
+                    .pop(),
+            )
+        });
+        change(&|all| {
+            for list in ["rows", "cols"] {
+                all["own_frame"]["rigid"][0]["lower"][list]
+                    .as_array_mut()
+                    .unwrap()
+                    .pop();
+            }
+        });
+    }
+    others
 }

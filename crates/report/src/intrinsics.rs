@@ -178,7 +178,7 @@ impl IntrinsicsLine {
             count => format!(" ({})", counted(count, "shared sensor")),
         };
         format!(
-            "{}{sensors}: {answer}; {parts}; {} of {} determined{}{strength}",
+            "{}{sensors}: {answer}; {parts}; the intrinsics of {} of {} known or determined{}{strength}",
             self.classes_in_words(),
             self.determined,
             self.determined + self.not_determined.len(),

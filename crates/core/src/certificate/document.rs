@@ -6,7 +6,7 @@ mod intrinsics;
 use super::EMBED_NODES;
 use super::base_lines::{BaseLinesView, ClaimedBaseLines};
 use super::objects::{Big, bigs, object, objects, written};
-use super::own_frame::{ClaimedOwnFrame, OwnFrameView};
+use super::own_frame::{ClaimedOwnFrame, OwnFrameView, vectors};
 use super::solutions::{self, ClaimedSolutions, ForeignSolutions, SolutionsView};
 use crate::contract::piece::Members;
 use crate::contract::{Body, Merge, Part, Seed};
@@ -73,12 +73,6 @@ objects! {
         rigid: &'a Members,
         pieces: &'a [P],
     }
-}
-
-/// Vectors of groups.
-pub(super) fn vectors(groups: &[Vec<[i128; 3]>]) -> Vec<Vec<[Big<i128>; 3]>> {
-    let vectors = |group: &Vec<[i128; 3]>| group.iter().map(|v| v.map(Big)).collect();
-    groups.iter().map(vectors).collect()
 }
 
 impl<'a> GraphView<'a> {

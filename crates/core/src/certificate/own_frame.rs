@@ -1,7 +1,6 @@
 //! What displacements in a frame of their own add, as certificates have it (docs/certificate.md, section 16).
 
 use super::base_lines::At;
-use super::document::vectors;
 use super::objects::{Big, object, objects, written};
 use crate::contract::piece::Members;
 use crate::decide::evidence::ModularDraw;
@@ -71,4 +70,10 @@ impl<'a> From<&'a OwnFrame> for OwnFrameView<'a> {
             }),
         }
     }
+}
+
+/// Vectors of groups.
+pub(super) fn vectors(groups: &[Vec<[i128; 3]>]) -> Vec<Vec<[Big<i128>; 3]>> {
+    let vectors = |group: &Vec<[i128; 3]>| group.iter().map(|v| v.map(Big)).collect();
+    groups.iter().map(vectors).collect()
 }

@@ -1,7 +1,29 @@
 //! What is claimed, and how strongly: proved, or wrong with a probability that is bounded.
 
+use crate::named::named;
 use std::fmt;
 use std::str::FromStr;
+
+/// The answer, the strongest first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Value {
+    /// The cameras are unique up to a projective map (calibrated: up to scale and
+    /// translation; affine: up to an affine map).
+    Solvable,
+    /// Finitely many sets of cameras.
+    FiniteSolvable,
+    /// Infinitely many.
+    NotFiniteSolvable,
+}
+
+named! {
+    Value {
+        Solvable = "solvable",
+        FiniteSolvable = "finite-solvable",
+        NotFiniteSolvable = "not-finite-solvable",
+    }
+    UnknownValue = "the answers are solvable, finite-solvable and not-finite-solvable"
+}
 
 /// A value with the strength of the claim that it is this one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

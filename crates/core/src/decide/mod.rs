@@ -140,7 +140,8 @@ pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError>
     };
     let mut verdict = found.conclude(sha256, contraction)?;
     if let Some(given) = own_frame {
-        let found = OwnFrame::new(graph, &verdict, &given, options.seed, &options.watch)?;
+        let (of, contraction) = ((graph, sha256), &verdict.contraction);
+        let found = OwnFrame::new(of, contraction, &given, options.seed, &options.watch)?;
         verdict.own_frame = Some(found);
     }
     Ok(verdict)

@@ -8,9 +8,10 @@
 mod equations;
 mod parts;
 
+use crate::contract::Contraction;
 use crate::contract::piece::Members as Block;
+use crate::decide::claim::Value;
 use crate::decide::evidence::ModularDraw;
-use crate::decide::verdict::{Value, Verdict};
 use crate::geometry::draw::DrawKey;
 use crate::graph::{Displacements, Graph};
 use crate::linalg::textbook::Pivots;
@@ -53,8 +54,6 @@ pub struct OwnFrame {
     pub alone: Vec<u32>,
     /// Nodes that stay where they are in a motion drawn at random, their parts not turning, increasing.
     pub placed: Vec<u32>,
-    /// The hash of the graph.
-    pub(crate) graph_sha256: [u8; 32],
     pub(crate) evidence: OwnFrameEvidence,
 }
 
@@ -69,7 +68,7 @@ pub(crate) struct OwnFrameEvidence {
 }
 
 impl OwnFrame {
-    /// Asks what pairs, rigs and `given` determine, for a verdict on pairs and rigs whose contraction
+    /// Asks what pairs, rigs and `given` determine, for a contraction by pairs and rigs that
     /// holds where the given vectors are ([`Known::OwnFrame`](super::Known::OwnFrame)). The cost is that
     /// of an elimination with three columns for each node that two members share, and one for each member.
     ///
@@ -78,17 +77,17 @@ impl OwnFrame {
     ///
     /// # Panics
     /// If what is given is of another graph.
-    pub fn new(
-        graph: &Graph,
-        verdict: &Verdict,
+    pub(super) fn new(
+        (graph, graph_sha256): (&Graph, [u8; 32]),
+        contraction: &Contraction,
         given: &Displacements,
         seed: u64,
         watch: &Watch,
     ) -> Result<Self, Stopped> {
-        let parts = Parts::new(graph, &verdict.contraction, given);
+        let parts = Parts::new(graph, contraction, given);
         let given_sha256 = given.sha256();
         let key = |draw| DrawKey {
-            graph_sha256: verdict.sha256,
+            graph_sha256,
             core_sha256: Some(given_sha256),
             seed,
             draw,
@@ -115,7 +114,6 @@ impl OwnFrame {
                 parts: parts.turning(),
                 alone: parts.alone.clone(),
                 placed: parts.placed(&motion),
-                graph_sha256: verdict.sha256,
                 evidence: OwnFrameEvidence {
                     lower: (equations.name(), motion.pivots),
                     rigid: Vec::new(),

@@ -3,34 +3,13 @@
 use crate::contract::Contraction;
 use crate::contract::piece::Members;
 use crate::decide::claim::{Claim, Strength};
+pub use crate::decide::claim::{UnknownValue, Value};
 use crate::decide::evidence::{Evidence, PieceVerdict, smallest_prime};
 use crate::decide::own_frame::OwnFrame;
 use crate::decide::solution_count::SolutionCount;
 use crate::geometry::model::Model;
 use crate::graph::{Displacements, Graph, KnownParts};
-use crate::named::named;
 use std::sync::Arc;
-
-/// The answer, the strongest first.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Value {
-    /// The cameras are unique up to a projective map (calibrated: up to scale and
-    /// translation; affine: up to an affine map).
-    Solvable,
-    /// Finitely many sets of cameras.
-    FiniteSolvable,
-    /// Infinitely many.
-    NotFiniteSolvable,
-}
-
-named! {
-    Value {
-        Solvable = "solvable",
-        FiniteSolvable = "finite-solvable",
-        NotFiniteSolvable = "not-finite-solvable",
-    }
-    UnknownValue = "the answers are solvable, finite-solvable and not-finite-solvable"
-}
 
 /// A component of the whole graph: a maximal part that pairs and known parts determine by itself.
 #[derive(Clone, Debug)]

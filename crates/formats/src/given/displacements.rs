@@ -9,7 +9,7 @@ use crate::cameras::Cameras;
 use crate::edge_list::fields::Field;
 use crate::edge_list::refusal::shown;
 use crate::error::{Fault, Place, Problem};
-use crate::given::{Given, at_one_place, one_place, turned};
+use crate::given::{Given, at_one_place, one_place, turned, unmeasured};
 use std::collections::{BTreeSet, HashMap};
 use viewcert::Known;
 use viewcert::graph::{Coordinate, CoordinateError, Displacements, VectorError};
@@ -184,14 +184,18 @@ impl Lines {
         &mut self,
         graph: &NamedGraph,
         one_frame: bool,
-    ) -> Result<Option<String>, Fault> {
+    ) -> Result<Vec<String>, Fault> {
         let positions = std::mem::take(&mut self.positions);
         let places = positions.iter();
         let places = places.filter_map(|line| Some((line.about, line.vector.as_ref()?)));
         let (again, note) = at_one_place(places, graph, one_frame);
-        let mut positions = positions.into_iter();
+        let all = positions.iter().map(|line| line.about);
+        let (alone, of_alone) = unmeasured(all, graph, one_frame);
+        let note: Vec<String> = note.into_iter().chain(of_alone).collect();
+        let positions = positions.into_iter();
+        let mut positions = positions.filter(|line| !alone.contains(&line.about));
         let Some(first) = positions.next() else {
-            return Ok(None);
+            return Ok(note);
         };
         for line in positions.filter(|line| !again.contains(&line.about)) {
             let fault = |problem| Place::Line(line.number).fault(problem);

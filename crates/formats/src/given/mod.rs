@@ -12,7 +12,7 @@ pub(crate) mod places;
 mod priors;
 mod table;
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeSet, HashMap, HashSet};
 use std::io::Read;
 use std::path::Path;
 
@@ -236,6 +236,29 @@ fn turned(input: &NamedGraph) -> UnionFind {
         sets.union(u as usize, v as usize);
     }
     sets
+}
+
+/// Cameras that have a position alone, with a note about them: no pair and no rig holds them. In the frame
+/// of the directions a position would place them, and nothing measures how they are turned.
+fn unmeasured(
+    nodes: impl Iterator<Item = u32>,
+    input: &NamedGraph,
+    one_frame: bool,
+) -> (BTreeSet<u32>, Option<String>) {
+    let pairs = input.graph.edges().iter().flat_map(|&(i, j)| [i, j]);
+    let rigs = input
+        .frames
+        .iter()
+        .flat_map(|frames| frames.groups.iter().flatten());
+    let held: HashSet<u32> = pairs.chain(rigs.copied()).collect();
+    let alone = nodes.filter(|node| one_frame && !held.contains(node));
+    let alone: BTreeSet<u32> = alone.collect();
+    let note = (!alone.is_empty()).then(|| {
+        let has = if alone.len() == 1 { "has" } else { "have" };
+        let cameras = counted(alone.len(), "camera");
+        format!("{cameras} {has} a position alone, which nothing measures: it counts for nothing")
+    });
+    (alone, note)
 }
 
 /// Cameras of one part at one place have one position: that of the first of them. Returns the others

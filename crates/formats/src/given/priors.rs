@@ -12,7 +12,7 @@ use crate::cameras::Cameras;
 use crate::colmap::{PosePriors, pose_priors};
 use crate::error::{Fault, Place, Problem, ReadError};
 use crate::given::displacements::long_vectors;
-use crate::given::{Given, POSITIONS, at_one_place, one_place};
+use crate::given::{Given, POSITIONS, at_one_place, one_place, unmeasured};
 use viewcert::Known;
 use viewcert::graph::{Coordinate, CoordinateError, Displacements};
 use viewcert::wording::counted;
@@ -70,7 +70,8 @@ fn of(priors: &PosePriors, graph: &NamedGraph, one_frame: bool) -> Result<Given,
     let count = known.len();
     let places = known.iter().map(|(&node, place)| (node, place));
     let (again, same) = at_one_place(places, graph, one_frame);
-    known.retain(|node, _| !again.contains(node));
+    let (alone, of_alone) = unmeasured(known.keys().copied(), graph, one_frame);
+    known.retain(|node, _| !again.contains(node) && !alone.contains(node));
     let first = known.iter().next();
     let Some((&first, &start)) = first.filter(|_| known.len() > 1) else {
         return Err(Place::Input.fault(match count {
@@ -106,7 +107,7 @@ fn of(priors: &PosePriors, graph: &NamedGraph, one_frame: bool) -> Result<Given,
                 rigs: Displacements::default(),
             },
         },
-        notes: notes.into_iter().chain(same).collect(),
+        notes: notes.into_iter().chain(same).chain(of_alone).collect(),
     })
 }
 

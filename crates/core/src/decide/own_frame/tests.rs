@@ -31,13 +31,9 @@ impl Case {
         });
         let given = Displacements::anywhere(self.nodes, given).unwrap();
         let rigs = Displacements::new(self.nodes, self.rigs.iter().copied()).unwrap();
-        let known = Known::OwnFrame {
-            given: given.clone(),
-            rigs,
-        };
+        let known = Known::OwnFrame { given, rigs };
         let options = Options::default().question(Question::calibrated(known));
-        let verdict = decide(&graph, &options).unwrap();
-        OwnFrame::new(&graph, &verdict, &given, 1, &Watch::default()).unwrap()
+        decide(&graph, &options).unwrap().own_frame.unwrap()
     }
 
     /// The dimension of the motions beyond translations, from the equations: y is the motion of a centre
