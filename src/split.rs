@@ -83,7 +83,13 @@ fn taken_apart(session: &Session, arguments: &SplitArguments) -> Result<u8> {
     session.doing(format!("measuring {}", path.display()));
     let softness = softness(&posed, held.is_scaled);
     session.doing(format!("writing {}", arguments.folder.display()));
-    let found = split::split(session.outputs(), &arguments.folder, &model, &held.parts);
+    let found = split::split(
+        session.outputs(),
+        &arguments.folder,
+        &model,
+        &posed,
+        &held.parts,
+    );
     session.hide();
     let (softness, found) = (softness?, found?);
     let mut notes = Vec::new();

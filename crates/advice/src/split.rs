@@ -144,11 +144,19 @@ pub fn check(folder: &Path, model: &Path) -> Result<()> {
     })
 }
 
-/// Writes the parts of a model into a folder, whole or not at all. Linear in the model for each part.
+/// Writes the parts of a model into a folder, whole or not at all. A point is in a part if two of its images see it from
+/// different places. Linear in the model for each part.
 ///
 /// # Errors
 /// Those of the file system; a folder with something else in it.
-pub fn split(outputs: &Outputs, folder: &Path, model: &Model, parts: &[Vec<u32>]) -> Result<Split> {
+pub fn split(
+    outputs: &Outputs,
+    folder: &Path,
+    model: &Model,
+    posed: &Posed,
+    parts: &[Vec<u32>],
+) -> Result<Split> {
+    let first = posed.first_at_place();
     let name = |v: u32| model.images[v as usize].name.to_string();
     let digits = parts.len().to_string().len().max(3);
     let mut parts_of: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
@@ -183,7 +191,10 @@ pub fn split(outputs: &Outputs, folder: &Path, model: &Model, parts: &[Vec<u32>]
     outputs.folder(folder, |new| {
         for (number, images) in (1..).zip(parts) {
             let inside: BTreeSet<u32> = images.iter().copied().collect();
-            let place = |id: u32| places.get(&id).copied().filter(|v| inside.contains(v));
+            let place = |id: u32| {
+                let v = places.get(&id).filter(|v| inside.contains(v))?;
+                Some(first[*v as usize] as u32)
+            };
             let part = model.of_images(|image| place(image.id));
             let folder = format!("{number:0digits$}");
             fs::create_dir(new.join(&folder))?;

@@ -72,7 +72,8 @@ impl Dyadic {
         }
     }
 
-    fn exact(self) -> Rational {
+    /// The same number.
+    pub fn exact(self) -> Rational {
         Rational::scaled(Integer::from(self.mantissa), 2, self.exponent)
     }
 }
@@ -654,66 +655,98 @@ impl Parts<'_> {
             })
     }
 
-    /// The motion of a part that holds two units at two places, if there is one.
+    /// The motion of a part that holds two images at two places, if there is one.
     fn joined(&self, a: usize, b: usize) -> Option<Vec<Velocity>> {
         let f = &self.placed.f;
-        let apart = minus(f, &self.placed.centres[a], &self.placed.centres[b]);
+        let at = [a, b].map(|image| self.placed.centres[image]);
+        let apart = minus(f, &at[0], &at[1]);
         let q = (0..3).find(|&q| apart[q] != 0)?;
         let inverse = f.inverse(apart[q])?;
-        let both = self.all(a).into_iter().zip(self.all(b));
-        let part = both.map(|(one, other)| {
-            let scale = f.times(f.minus(one[3 + q], other[3 + q]), inverse);
-            let at = self.placed.centres[a];
-            let mut part = one;
-            part[6] = scale;
-            (0..3).for_each(|k| part[3 + k] = f.minus(part[3 + k], f.times(scale, at[k])));
-            part
+        let [one, other] = [a, b].map(|image| self.all(self.root_of[image]));
+        let part = one.into_iter().zip(other).map(|(one, other)| {
+            // What both have beside the turn differs by the scale times their distance.
+            let still = |velocity: Velocity, at| velocity_at(f, &velocity, at);
+            let turn =
+                |velocity: &Velocity, at| cross(f, &[velocity[0], velocity[1], velocity[2]], at);
+            let first = minus(f, &still(one, at[0]), &turn(&one, &at[0]));
+            let second = minus(f, &still(other, at[1]), &turn(&other, &at[1]));
+            let scale = f.times(f.minus(first[q], second[q]), inverse);
+            let slide: [u64; 3] =
+                std::array::from_fn(|k| f.minus(first[k], f.times(scale, at[0][k])));
+            [one[0], one[1], one[2], slide[0], slide[1], slide[2], scale]
         });
         let part: Vec<Velocity> = part.collect();
         (self.holds(&part, a) && self.holds(&part, b)).then_some(part)
     }
 
     fn find(&self, held: &mut Held) {
-        let roots: Vec<usize> = self.first.keys().copied().collect();
-        let of_bodies = roots
-            .iter()
+        let tracks = &self.placed.model.tracks;
+        let kind = |v: u32| self.kinds[self.root_of[v as usize]];
+        let of_bodies = self
+            .first
+            .keys()
             .filter(|&&root| self.kinds[root] != Kind::Single);
         let mut parts: BTreeSet<Vec<Velocity>> = of_bodies.map(|&root| self.all(root)).collect();
-        let mut by_turn: BTreeMap<[u64; 3], Vec<usize>> = BTreeMap::new();
-        for &root in &roots {
-            let [x, y, z, ..] = self.velocity(root, &self.motions[0]);
-            by_turn.entry([x, y, z]).or_default().push(root);
-        }
-        for same in by_turn.values() {
-            for (k, &a) in same.iter().enumerate() {
-                for &b in &same[..k] {
-                    let singles = [a, b].iter().all(|&root| self.kinds[root] == Kind::Single);
-                    let known = parts
-                        .iter()
-                        .any(|part| self.holds(part, a) && self.holds(part, b));
-                    if singles && !known {
-                        parts.extend(self.joined(a, b));
+        let mut tried = HashSet::new();
+        for track in tracks {
+            let alone: Vec<u32> = track
+                .iter()
+                .copied()
+                .filter(|&v| kind(v) != Kind::Body)
+                .collect();
+            for (k, &a) in alone.iter().enumerate() {
+                for &b in alone[k + 1..].iter().take(NEIGHBOURS) {
+                    if self.root_of[a as usize] != self.root_of[b as usize] && tried.insert((a, b))
+                    {
+                        parts.extend(self.joined(a as usize, b as usize));
                     }
                 }
             }
         }
         let parts = parts.into_iter().map(|part| {
-            let images = (0..self.root_of.len())
-                .filter(|&v| self.holds(&part, v))
-                .map(|v| v as u32);
+            let images = (0..self.root_of.len() as u32).filter(|&v| self.holds(&part, v as usize));
             (images.collect::<Vec<u32>>(), part)
         });
         let mut parts: Vec<(Vec<u32>, Vec<Velocity>)> = parts.collect();
         parts.sort_by(|a, b| (b.0.len(), &a.0).cmp(&(a.0.len(), &b.0)));
+        // A part has points, and is in no other.
+        let mut seen = BTreeSet::new();
+        let of = parts_of(&parts, self.root_of.len());
+        for track in tracks {
+            let mut all: Vec<usize> = track
+                .iter()
+                .flat_map(|&v| &of[v as usize])
+                .copied()
+                .collect();
+            all.sort_unstable();
+            seen.extend(
+                all.windows(2)
+                    .filter(|two| two[0] == two[1])
+                    .map(|two| two[0]),
+            );
+        }
+        let is_inside = |part: usize| {
+            let (images, _) = &parts[part];
+            let others = of[images[0] as usize]
+                .iter()
+                .filter(|&&other| other < part && seen.contains(&other));
+            others.into_iter().any(|&other| {
+                images
+                    .iter()
+                    .all(|v| parts[other].0.binary_search(v).is_ok())
+            })
+        };
+        let kept: Vec<bool> = (0..parts.len())
+            .map(|part| seen.contains(&part) && !is_inside(part))
+            .collect();
+        let mut kept = kept.into_iter();
+        parts.retain(|_| kept.next().unwrap_or(false));
         held.joints = self.joints(&parts);
         held.parts = parts.into_iter().map(|(images, _)| images).collect();
     }
 
     fn joints(&self, parts: &[(Vec<u32>, Vec<Velocity>)]) -> Vec<Hinge> {
-        let mut parts_of = vec![Vec::new(); self.root_of.len()];
-        for (part, (images, _)) in parts.iter().enumerate() {
-            images.iter().for_each(|&v| parts_of[v as usize].push(part));
-        }
+        let parts_of = parts_of(parts, self.root_of.len());
         let mut shared: BTreeMap<[usize; 2], (Vec<u32>, Vec<u32>)> = BTreeMap::new();
         let twos = |of: &[usize]| -> Vec<[usize; 2]> {
             of.iter()
@@ -762,6 +795,15 @@ impl Parts<'_> {
         let joints = shared.into_iter().map(joint);
         joints.filter(|joint| joint.freedom > 0).collect()
     }
+}
+
+/// The parts of each image.
+fn parts_of(parts: &[(Vec<u32>, Vec<Velocity>)], images: usize) -> Vec<Vec<usize>> {
+    let mut of = vec![Vec::new(); images];
+    for (part, (images, _)) in parts.iter().enumerate() {
+        images.iter().for_each(|&v| of[v as usize].push(part));
+    }
+    of
 }
 
 fn kind(f: &PrimeField, &[a, b, c, x, y, z, scale]: &Velocity) -> Motion {

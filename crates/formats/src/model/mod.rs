@@ -15,7 +15,7 @@ use std::collections::{HashMap, HashSet};
 use std::fs::File;
 use std::io::{self, BufWriter};
 use std::path::Path;
-use viewcert::linalg::integer::Integer;
+use viewcert::here::finished::Dyadic;
 use viewcert::linalg::rational::Rational;
 
 use crate::error::{Fault, Place, Problem, ReadError};
@@ -461,20 +461,7 @@ pub fn is_file_of_model(name: &str) -> bool {
 
 /// A double as the rational number that it is; nothing for infinities and what is no number.
 pub(crate) fn exact(number: f64) -> Option<Rational> {
-    let bits = number.to_bits();
-    let (exponent, fraction) = ((bits >> 52 & 0x7ff) as i64, bits & ((1 << 52) - 1));
-    let (mantissa, exponent) = match exponent {
-        0x7ff => return None,
-        0 => (fraction, -1074),
-        _ => (fraction | 1 << 52, exponent - 1075),
-    };
-    let mantissa = Integer::from(mantissa);
-    let mantissa = if number.is_sign_negative() {
-        mantissa.neg()
-    } else {
-        mantissa
-    };
-    Some(Rational::scaled(mantissa, 2, exponent))
+    Dyadic::from_bits(number.to_bits()).map(Dyadic::exact)
 }
 
 /// A part of a model without its tracks.

@@ -57,7 +57,7 @@ impl Posed {
     }
 
     /// For each image the first one at its place, rounding aside.
-    fn first_at_place(&self) -> Vec<usize> {
+    pub fn first_at_place(&self) -> Vec<usize> {
         let centres = self.centres();
         let size = |k: usize| {
             let all = || centres.iter().map(|centre| centre[k]);
