@@ -34,6 +34,8 @@ pub struct Softness {
 }
 
 type Vector = [f64; 3];
+/// A symmetric matrix: of each row the column of the first entry, and all from there to the diagonal.
+type Rows = Vec<(usize, Vec<f64>)>;
 /// What moves an observation, by rows.
 type Pair = [Vector; 2];
 
@@ -291,10 +293,7 @@ impl Scene {
     }
 
     /// The Schur complement, in an order in which its rows are short; the place of each unit.
-    fn matrix(
-        &self,
-        seen: &[Seen],
-    ) -> Result<Option<(Vec<(usize, Vec<f64>)>, Vec<usize>)>, AuditError> {
+    fn matrix(&self, seen: &[Seen]) -> Result<Option<(Rows, Vec<usize>)>, AuditError> {
         let mut pairs: Vec<(u32, u32)> = Vec::new();
         for point in seen {
             for (k, &a) in point.units.iter().enumerate() {
@@ -328,7 +327,7 @@ impl Scene {
             let from = UNIT * first[k / UNIT];
             (from, vec![0.0; k + 1 - from])
         });
-        let mut rows: Vec<(usize, Vec<f64>)> = rows.collect();
+        let mut rows: Rows = rows.collect();
         let mut put = |a: usize, b: usize, block: &dyn Fn(usize, usize) -> f64| {
             for i in 0..UNIT {
                 let (from, row) = &mut rows[UNIT * place[a] + i];
