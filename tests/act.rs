@@ -705,7 +705,7 @@ fn a_list_of_pairs_holds_names_without_blanks() {
     let why =
         "COLMAP's lists cannot hold the names \"my photo\": a list of pairs is split at blanks";
     assert!(
-        run.err.contains("--write") && run.err.contains(why),
+        run.err.contains("pairs.txt: ") && run.err.contains(why),
         "{}",
         run.err
     );

@@ -243,7 +243,7 @@ fn recipes_lead_from_two_models_to_one() {
         let (code, said, errors) = sh(lines[0]);
         assert_eq!(
             (code, said.lines().count(), &*errors),
-            (Some(0), 4, ""),
+            (Some(0), 6, ""),
             "{said}"
         );
         assert!(said.contains("incremental likely 6 + 6 images"), "{said}");

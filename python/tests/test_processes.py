@@ -122,6 +122,15 @@ def _reconstruction() -> int:
     return len(viewcert.tracks_from_reconstruction(pycolmap.synthesize_dataset(options)))
 
 
+def _mend() -> tuple[int, ...]:
+    pycolmap = pytest.importorskip("pycolmap")
+    path = os.path.join(tempfile.mkdtemp(dir=_FOLDER), "database.db")
+    options = pycolmap.SyntheticDatasetOptions(num_rigs=1, num_cameras_per_rig=1, num_frames_per_rig=5, num_points3D=60)
+    with pycolmap.Database.open(path) as database:
+        pycolmap.synthesize_dataset(options, database)
+    return viewcert.mend(path, path + ".copy").after
+
+
 def _merge() -> str:
     pycolmap = pytest.importorskip("pycolmap")
     options = pycolmap.SyntheticDatasetOptions(num_rigs=1, num_cameras_per_rig=1, num_frames_per_rig=5, num_points3D=60)
@@ -155,6 +164,7 @@ CASES: dict[str, Callable[[], Any]] = {
     "intrinsics": lambda: _intrinsics(SMALL).rank,
     "label": lambda: viewcert.label(SMALL),
     "lists": lambda: viewcert.lists(_database(), _lists()).determined,
+    "mend": _mend,
     "merge": _merge,
     "models": lambda: viewcert.models(STRIP).report(),
     "overview": lambda: viewcert.overview(_database()).found["pairs"],

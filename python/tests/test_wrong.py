@@ -107,6 +107,7 @@ def calls() -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
         "label": one,
         "limits": {},
         "lists": {"graph": _file(), "files": [_file()]},
+        "mend": {"database": _file(), "copy": tempfile.mktemp()},
         "merge": {"one": _file(), "other": _file()},
         "models": one,
         "overview": {"path": _file()},

@@ -122,8 +122,11 @@ pub(crate) fn write_pairs(
     pairs: &[&[String; 2]],
 ) -> Result<ToMatch> {
     let names: BTreeSet<&String> = pairs.iter().copied().flatten().collect();
-    let what = format!("--write {}", list.display());
-    ensure_expressible(&what, names.into_iter().cloned(), true)?;
+    ensure_expressible(
+        &list.display().to_string(),
+        names.into_iter().cloned(),
+        true,
+    )?;
     outputs.write(list, |out| {
         let mut pairs = pairs.iter();
         pairs.try_for_each(|[a, b]| writeln!(out, "{a} {b}"))
