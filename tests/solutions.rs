@@ -33,7 +33,7 @@ fn components_say_that_they_are_not_unique() {
         std::fs::write(&path, graph).unwrap();
         String::from_utf8(verify(&[&[&*path], options].concat()).stdout).unwrap()
     };
-    assert!(said(two, &[]).contains("exactly 2 solutions over the complex numbers (proved)"));
+    assert!(said(two, &[]).contains("exactly 2 solutions over the complex numbers if the centres"));
     let hanging = format!("{two}8 9\n");
     let text = said(&hanging, &[]);
     assert!(

@@ -34,6 +34,8 @@ type Numbers<'py, T> = Bound<'py, PyArray1<T>>;
 pub(crate) struct Decided {
     input: Arc<NamedGraph>,
     verdict: Arc<Verdict>,
+    /// The same with what base lines add that frames share, if they hold all together.
+    held: Option<Verdict>,
     rational: bool,
     planar: bool,
     focal: bool,
@@ -49,8 +51,10 @@ impl Decided {
         wanted: &Wanted,
         time: Duration,
     ) -> Self {
+        let held = assumptions::held(&input, &verdict, &Watch::default());
         Self {
             input,
+            held: held.ok().flatten(),
             verdict: Arc::new(verdict),
             rational: wanted.bounds.is_some(),
             planar: wanted.planar,
@@ -63,6 +67,11 @@ impl Decided {
     /// The graph and its verdict.
     pub(crate) fn answer(&self) -> (Arc<NamedGraph>, Arc<Verdict>) {
         (Arc::clone(&self.input), Arc::clone(&self.verdict))
+    }
+
+    /// The verdict, with what frames hold together.
+    fn shown(&self) -> &Verdict {
+        self.held.as_ref().unwrap_or(&self.verdict)
     }
 
     /// What was asked besides, whether the arithmetic was rational, and how long it took.
@@ -314,13 +323,13 @@ impl Decided {
     /// The answer.
     #[getter]
     fn value(&self) -> &'static str {
-        self.verdict.answer_name()
+        self.shown().answer_name()
     }
 
     /// The answer without displacements in a frame of their own.
     #[getter]
     fn measured(&self) -> &'static str {
-        self.verdict.value.name()
+        self.shown().value.name()
     }
 
     /// Whether displacements have a frame of their own.
@@ -338,21 +347,21 @@ impl Decided {
     /// The rank that was found.
     #[getter]
     fn rank(&self) -> usize {
-        let own_frame = self.verdict.own_frame.as_ref();
-        own_frame.map_or(self.verdict.rank, |found| found.rank)
+        let own_frame = self.shown().own_frame.as_ref();
+        own_frame.map_or(self.shown().rank, |found| found.rank)
     }
 
     /// The rank of a finite solvable graph with as many nodes.
     #[getter]
     fn required(&self) -> usize {
-        let own_frame = self.verdict.own_frame.as_ref();
-        own_frame.map_or(self.verdict.required, |found| found.required)
+        let own_frame = self.shown().own_frame.as_ref();
+        own_frame.map_or(self.shown().required, |found| found.required)
     }
 
     /// How strong the answer, the rank and the components are: words, and exponents of error
     /// bounds.
     fn strengths(&self) -> [(&'static str, Option<i64>); 3] {
-        let verdict = &self.verdict;
+        let verdict = self.shown();
         [
             verdict.value_claim().strength,
             verdict.rank_claim().strength,
@@ -394,7 +403,7 @@ impl Decided {
     fn components<'py>(&self, py: Python<'py>) -> PyResult<(Numbers<'py, u32>, Numbers<'py, u64>)> {
         let (nodes, ends) = work::briefly(py, || {
             let (mut nodes, mut ends) = (Vec::new(), Vec::new());
-            for component in &self.verdict.components {
+            for component in &self.shown().components {
                 nodes.extend(component.nodes());
                 ends.push(nodes.len() as u64);
             }
@@ -405,7 +414,7 @@ impl Decided {
 
     /// How many components there are.
     fn component_count(&self) -> usize {
-        self.verdict.components.len()
+        self.shown().components.len()
     }
 
     /// The certificate.

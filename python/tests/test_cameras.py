@@ -156,6 +156,19 @@ def test_they_pickle_copy_and_compare() -> None:
     )
 
 
+def test_unknown_focal_lengths_ask_for_axes() -> None:
+    """Axes in one plane leave the focal lengths of a pair open; centres alone have no axes."""
+    pair = viewcert.verify([("a", "b")], model="focal")
+    with pytest.raises(viewcert.InputError, match="centres do not say where optical axes point"):
+        viewcert.at_cameras(pair, {"a": (0, 0, 0), "b": (1, 0, 0)})
+    one = np.eye(3, 4)
+    for third, determined in [((0, 0, 1), False), ((0.6, 0, 0.8), False), ((0, 0.6, 0.8), True)]:
+        x, y, z = third
+        other = [[z, 0, -x, -z], [0, 1, 0, 0], [x, 0, z, -x]] if y == 0 else [[1, 0, 0, -1], [0, z, -y, 0], [0, y, z, 0]]
+        found = viewcert.at_cameras(pair, {"a": one, "b": np.array(other, dtype=float)})
+        assert found.determined is determined, third
+
+
 def test_what_is_refused(tmp_path: pathlib.Path) -> None:
     at = {"a": (0, 0, 0), "b": (1, 0, 0), "c": (0, 1, 0)}
     for cameras, why in [

@@ -67,7 +67,7 @@ def test_an_overview_shows_itself(database: pathlib.Path) -> None:
     assert timeless(page) == timeless(found.page()) and "<svg" in page
     assert found.determined is True
     # The one camera has no prior focal length.
-    assert found.condition == "if every pair is right and the mapper finds the focal length"
+    assert found.condition == "if every pair is right and the mapper finds the focal length from optical axes that are not parallel"
     verdict = viewcert.verify(viewcert.tracks_from_database(database))
     assert verdict.value == "solvable"
     assert verdict.conditions[0] == found.condition

@@ -127,13 +127,19 @@ pub struct BaseLines {
     /// than one: where they are then rests on rotations that nothing gives.
     #[serde(skip_serializing_if = "Option::is_none")]
     groups_not_turned: Option<usize>,
+    /// What images determine alone, where frames add the rest.
+    #[serde(skip)]
+    alone: String,
 }
 
 impl BaseLines {
-    fn new(found: &SharedBaseLines, turns: Turns, input: &NamedGraph) -> Self {
+    fn new(found: &SharedBaseLines, turns: Turns, input: &NamedGraph, verdict: &Verdict) -> Self {
         let groups = groups_turned(input);
+        let components = counted(verdict.components.len(), "component");
+        let (rank, required) = (verdict.rank, verdict.required);
         Self {
             condition: None,
+            alone: format!("; without it {components}, rank {rank} of {required}"),
             about_one_axis: found.about_one_axis && turns != Turns::General,
             without_turns: turns == Turns::No,
             groups_not_turned: Some(groups).filter(|&groups| groups > 1),
@@ -200,7 +206,12 @@ impl BaseLines {
                 counted(self.parts, "part")
             ),
         };
-        format!("{unknown}, the same in {frames}: {answer}, rank {rank} of {rank_required}")
+        let alone = if self.is_determined() {
+            &*self.alone
+        } else {
+            ""
+        };
+        format!("{unknown}, the same in {frames}: {answer}, rank {rank} of {rank_required}{alone}")
     }
 }
 
@@ -245,8 +256,30 @@ pub fn base_lines(
         return Ok(None);
     };
     let turns = turns(input, watch)?;
-    let lines = BaseLines::new(&found, turns, input);
+    let lines = BaseLines::new(&found, turns, input, verdict);
     Ok(Some((lines, found)).filter(|(lines, _)| !(is_good && lines.is_determined())))
+}
+
+/// A verdict with what base lines add that frames share, if they hold all together.
+///
+/// # Errors
+/// If the work was stopped.
+pub fn held(
+    input: &NamedGraph,
+    verdict: &Verdict,
+    watch: &Watch,
+) -> Result<Option<Verdict>, Stopped> {
+    let found = base_lines(input, verdict, watch)?;
+    Ok(found.and_then(|found| held_by(&found, input, verdict)))
+}
+
+fn held_by(
+    (lines, found): &(BaseLines, SharedBaseLines),
+    input: &NamedGraph,
+    verdict: &Verdict,
+) -> Option<Verdict> {
+    let is_good = lines.is_determined();
+    is_good.then(|| found.held(&input.graph, verdict))?
 }
 
 /// With how few turns of frames what frames determine is determined.
@@ -422,11 +455,8 @@ impl Scope {
     /// The verdict with what frames hold together, which is one component then.
     pub fn held<'v>(&self, input: &NamedGraph, verdict: &'v Verdict) -> Cow<'v, Verdict> {
         let found = self.base_lines.as_ref();
-        let found = found.filter(|(lines, _)| lines.is_determined());
-        match found.and_then(|(_, found)| found.held(&input.graph, verdict)) {
-            Some(held) => Cow::Owned(held),
-            None => Cow::Borrowed(verdict),
-        }
+        let held = found.and_then(|found| held_by(found, input, verdict));
+        held.map_or(Cow::Borrowed(verdict), Cow::Owned)
     }
 
     /// The condition of a promise, with those that decide here.

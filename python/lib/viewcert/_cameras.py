@@ -395,7 +395,8 @@ def at_cameras(verdict: Any, cameras: Cameras) -> AtCameras:
     Raises
     ------
     InputError
-        If nodes have no camera, or a pair's cameras are at one place and so have no fundamental matrix.
+        If nodes have no camera, or a pair's cameras are at one place and so have no fundamental matrix; centres
+        for a verdict with ``model='focal'``, which asks where optical axes point.
     TooLarge
         If it needs more memory than there is.
 

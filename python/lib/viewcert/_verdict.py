@@ -164,11 +164,13 @@ class BaseLines:
         Whether there are just so many.
     about_one_axis : bool
         Whether all positions are unique too if all frames turn about one axis, as a vehicle's do.
+    without_turns : bool
+        Whether they are if frames do not turn against each other, as those of a drone on one line.
     groups_not_turned : int, optional
         How many groups of images neither pairs nor known poses turn against each other, if there
         are several: the value is ``'open'`` then.
     condition : str, optional
-        What ``'solvable'`` rests on: that every pair is right.
+        What ``'solvable'`` rests on: that every pair is right, and frames turn.
     """
 
     value: BaseLinesValue
@@ -180,6 +182,7 @@ class BaseLines:
     parts: int
     parts_proved: bool
     about_one_axis: bool
+    without_turns: bool
     groups_not_turned: Optional[int] = None
     condition: Optional[str] = None
 
@@ -399,8 +402,8 @@ class Verdict(Generic[N]):
 
     @property
     def base_lines(self) -> Optional[BaseLines]:
-        """What frames add: if there are base lines that are not known, and the verdict does not say
-        that all is unique without them."""
+        """What frames add: if there are base lines that are not known, and all is not unique without
+        them. The verdict takes it into account; the certificate states both."""
         found = self.to_dict().get("base_lines")
         if found is None:
             return None
