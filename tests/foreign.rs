@@ -218,7 +218,6 @@ fn tables_of_something_else_are_no_graphs() {
         ("R_write_table.txt", "row.names = FALSE"),
         ("gtsam_prior.dot", "a graph in DOT"),
         ("octave_two_vars.txt", "a text file of Octave"),
-        ("open3d_pose_graph.json", "a pose graph of Open3D"),
     ] {
         let path = files.join(file);
         let run = verify(&[path.to_str().unwrap(), "--json"]);
