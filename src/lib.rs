@@ -6,7 +6,6 @@
 //! [`OverviewAsked`], [`ListsAsked`], [`MergeAsked`], [`check_archive`].
 
 mod advise;
-#[cfg(feature = "audit")]
 mod audit;
 mod bounds;
 mod catalog;
@@ -70,7 +69,6 @@ struct CommandLine {
 /// The commands that the list of commands leaves out; a test holds them against it.
 const LITERATURE: &[&str] = &[
     "  models      Decide every camera model side by side, and say what changes between them",
-    #[cfg(feature = "audit")]
     "  audit       Hold floating point, or claims of others, against the exact verdict",
     "  label       Name a small graph: a label that is the same for all its relabellings, and stays",
     "  catalog     Enumerate candidates and decide them all",
@@ -127,7 +125,6 @@ enum Command {
     #[command(hide = true)]
     Catalog(catalog::Arguments),
     /// Hold floating point, or claims of others, against the exact verdict.
-    #[cfg(feature = "audit")]
     #[command(hide = true)]
     Audit(audit::AuditArguments),
     /// Decide every camera model side by side, and say what changes between them.
@@ -165,7 +162,6 @@ fn run(session: &Session, arguments: &CommandLine) -> Result<u8> {
         Some(Command::Convert(arguments)) => convert::run(session, arguments),
         Some(Command::Label(arguments)) => label::run(session, arguments),
         Some(Command::Catalog(arguments)) => catalog::run(session, arguments),
-        #[cfg(feature = "audit")]
         Some(Command::Audit(arguments)) => audit::run(session, arguments),
         Some(Command::Models(arguments)) => models::run(session, arguments),
         None => {

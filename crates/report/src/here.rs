@@ -51,7 +51,6 @@ fn means(here: &Here, graph: &Graph, generic: Option<usize>) -> &'static str {
 }
 
 /// Whether the cameras are determined, and what that means.
-#[cfg(feature = "audit")]
 pub(super) fn answer(here: &Here, graph: &Graph, generic: Option<usize>) -> String {
     let is = if here.is_determined() {
         "determined"

@@ -4,7 +4,6 @@
 
 pub mod advice;
 pub mod assumptions;
-#[cfg(feature = "audit")]
 pub mod audit;
 mod condition;
 pub mod database;
