@@ -403,9 +403,9 @@ fn others(whole: &Value, value: &str) -> Vec<Value> {
         });
         change(&|all| all["own_frame"]["upper"] = Value::Null);
     }
-    if let [one, other] = &whole["own_frame"]["upper"]["blocks"]
+    if let [one, other] = whole["own_frame"]["upper"]["blocks"]
         .as_array()
-        .map_or(&[][..], |all| all)[..]
+        .map_or(&[][..], |all| all)
     {
         let of = |name: &str| {
             [one, other]
