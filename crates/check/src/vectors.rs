@@ -29,16 +29,23 @@ pub(crate) fn check_vectors(
 ) -> Checked<Vectors> {
     ensure!(groups.is_some(), "there are no displacements");
     let groups = groups.unwrap_or_default();
+    let known = check_places(vectors, groups, nodes)?;
     for (k, list) in vectors.iter().enumerate() {
-        let mut places: Vec<Vector> = list.iter().map(|[x, y, z]| [x.0, y.0, z.0]).collect();
-        places.push([0; 3]);
-        places.sort_unstable();
-        ensure!(
-            places.windows(2).all(|pair| pair[0] != pair[1]),
-            "group {k}: two nodes are at one place"
-        );
+        check_distinct(list).within(|| format!("group {k}"))?;
     }
-    check_places(vectors, groups, nodes)
+    Ok(known)
+}
+
+/// Sees that the vectors of a group lead to different places.
+fn check_distinct(list: &[[Big<i128>; 3]]) -> Checked<()> {
+    let mut places: Vec<Vector> = list.iter().map(|[x, y, z]| [x.0, y.0, z.0]).collect();
+    places.push([0; 3]);
+    places.sort_unstable();
+    ensure!(
+        places.windows(2).all(|pair| pair[0] != pair[1]),
+        "two nodes are at one place"
+    );
+    Ok(())
 }
 
 /// The same where two nodes may be at one place.
