@@ -14,6 +14,8 @@ from supposed import Supposed
 class Document:
     """Section 3: one certificate, its graph, and what it supposes besides."""
 
+    own = None
+
     def read_document(self, data, graph_data, given_data, expects=False):
         """Section 3: the members; those of later sections, that is bodies, rigid, pieces and solutions, are handed on."""
         document = parse(data) if isinstance(data, bytes) else data
@@ -53,7 +55,6 @@ class Document:
             self.check_vectors(stated["vectors"])
         same_hash = not expects or self.displacements_hash() == given_hash
         need(same_hash, "section 3: the known displacements that are given are others")
-        self.own = None
         if own_frame:
             where = "section 16"
             need(self.model == "calibrated", f"{where}: calibrated model only")

@@ -113,7 +113,7 @@ impl OwnFrame {
                 required,
                 parts: parts.turning(),
                 alone: parts.alone.clone(),
-                placed: parts.placed(&motion),
+                placed: motion.placed(&parts),
                 evidence: OwnFrameEvidence {
                     lower: (equations.name(), motion.pivots),
                     rigid: Vec::new(),

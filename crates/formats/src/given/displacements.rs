@@ -186,6 +186,12 @@ impl Lines {
         one_frame: bool,
     ) -> Result<Vec<String>, Fault> {
         let positions = std::mem::take(&mut self.positions);
+        let mut before: HashMap<u32, &Option<Vector>> = HashMap::new();
+        for line in &positions {
+            if *before.entry(line.about).or_insert(&line.vector) != &line.vector {
+                return Err(Place::Line(line.number).fault(contradiction()));
+            }
+        }
         let places = positions.iter();
         let places = places.filter_map(|line| Some((line.about, line.vector.as_ref()?)));
         let (again, note) = at_one_place(places, graph, one_frame);

@@ -61,6 +61,21 @@ impl Motion {
         }
         classes.into_values()
     }
+
+    /// The nodes that it leaves where they are.
+    pub(super) fn placed(&self, parts: &Parts) -> Vec<u32> {
+        let mut placed = BTreeSet::new();
+        for (member, rest) in parts.members.iter().zip(&self.rest) {
+            match rest {
+                Some(true) => placed.extend(&member.nodes),
+                Some(false) => {
+                    placed.extend(member.nodes.iter().filter(|v| self.resting.contains(v)))
+                }
+                None => {}
+            }
+        }
+        placed.into_iter().collect()
+    }
 }
 
 impl<'a> Equations<'a> {

@@ -4,7 +4,6 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::TurningPart;
-use super::equations::Motion;
 use crate::contract::Contraction;
 use crate::contract::piece::Members as Block;
 use crate::geometry::placed::Placed;
@@ -246,21 +245,6 @@ impl Parts {
             }
         }
         (blocks, sum)
-    }
-
-    /// The nodes that a motion leaves where they are.
-    pub(super) fn placed(&self, motion: &Motion) -> Vec<u32> {
-        let mut placed = BTreeSet::new();
-        for (member, rest) in self.members.iter().zip(&motion.rest) {
-            match rest {
-                Some(true) => placed.extend(&member.nodes),
-                Some(false) => {
-                    placed.extend(member.nodes.iter().filter(|v| motion.resting.contains(v)))
-                }
-                None => {}
-            }
-        }
-        placed.into_iter().collect()
     }
 }
 
