@@ -233,6 +233,10 @@ def main():
             if run.returncode not in (0, 1):
                 sys.exit(f"model {k}: verify split: {run.stderr}")
             found = json.loads(run.stdout)
+        if expected == 0 and found["freedom"] == 0 and 0.001 < (found["softest"]["pixels"] or 1) < 0.01:
+            # The null space does not say on which side of the threshold a stiff but soft model is.
+            unclear += 1
+            continue
         said = found["freedom"] > 0 or found["softest"]["rounding"]
         problems = []
         if said != (expected > 0) or run.returncode != said:
