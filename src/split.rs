@@ -8,6 +8,7 @@ use std::time::Instant;
 use viewcert::here::finished::held;
 use viewcert_advice::split::{self, Free};
 use viewcert_audit::softness::softness;
+use viewcert_formats::error::Problem;
 use viewcert_formats::{Model, ReadOptions, read_graphs};
 use viewcert_report::counted;
 use viewcert_report::split::SplitReport;
@@ -63,9 +64,11 @@ fn taken_apart(session: &Session, arguments: &SplitArguments) -> Result<u8> {
     };
     let model = match Model::read(path) {
         Ok(model) if !model.points.is_empty() => model,
-        // A model without points is refused as it is everywhere.
+        // A model without points, and a folder that is none, are refused as they are everywhere.
         other => match read_graphs(path, &ReadOptions::default()).next() {
-            Some(Err(error)) => return Err(error.into()),
+            Some(Err(error)) if !matches!(error.problem, Problem::Model) => {
+                return Err(error.into());
+            }
             _ => other?,
         },
     };

@@ -207,6 +207,7 @@ fn poses_that_are_no_numbers() {
         &["merge", &bad, &good],
         &["overview", &bad],
         &["--tracks", &bad],
+        &["split", &bad, "/nonexistent/parts"],
     ] {
         let run = verify(words);
         assert_eq!(run.code, 2, "{}", run.out);

@@ -27,23 +27,26 @@ import intrinsics  # noqa: E402
 import lower  # noqa: E402
 import matrices  # noqa: E402
 import notation  # noqa: E402
+import own_frame  # noqa: E402
 import pieces  # noqa: E402
 import solutions  # noqa: E402
+import supposed  # noqa: E402
 import upper  # noqa: E402
 import test_base_lines  # noqa: E402
 import test_check  # noqa: E402
 import test_displacements  # noqa: E402
 import test_here  # noqa: E402
 import test_intrinsics  # noqa: E402
+import test_own_frame  # noqa: E402
 import test_parts  # noqa: E402
 import test_pebbles  # noqa: E402
 import test_solutions  # noqa: E402
 
 CHECKER = (
     base_lines, bodies, check, claim, cores, document, draws, elimination, graphs, here, intrinsics, lower, matrices, notation,
-    pieces, solutions, upper,
+    own_frame, pieces, solutions, supposed, upper,
 )
-TESTS = (test_base_lines, test_check, test_displacements, test_here, test_intrinsics, test_parts, test_pebbles, test_solutions)
+TESTS = (test_base_lines, test_check, test_displacements, test_here, test_intrinsics, test_own_frame, test_parts, test_pebbles, test_solutions)
 REFUSALS = (notation.Reject, notation.Unreadable, notation.TooLarge)
 
 
