@@ -3,7 +3,7 @@
 //! In: poses, points and who sees which, as exact numbers ([`Finished`]). Out: the motions of first order that change no
 //! observation, by parts ([`Held`]). A *unit* moves as a whole: an image, the images of a frame, or what merging has
 //! shown to be rigid. What is left of units and of the points that several of them see is eliminated modulo primes, as in
-//! [`rank`](super::rank). Intrinsics are known.
+//! `rank`. Intrinsics are known.
 
 use crate::decide::{Claim, Strength};
 use crate::geometry::draw;
