@@ -13,7 +13,7 @@ fuzz_target!(|data: &[u8]| {
         Labels::Names(["a", "b c", "d", "e", "f", "part"].map(Into::into).into()),
     ] {
         let input = NamedGraph::new("path", graph.clone(), labels);
-        match given::read(data, &input) {
+        match given::read(data, &input, false) {
             Err(fault) => assert!(!fault.problem.remedy().is_empty()),
             Ok(found) => match found.known {
                 Known::Parts(parts) => assert!(parts.iter().flatten().all(|&node| node < 6)),
