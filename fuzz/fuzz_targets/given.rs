@@ -17,7 +17,7 @@ fuzz_target!(|data: &[u8]| {
             Err(fault) => assert!(!fault.problem.remedy().is_empty()),
             Ok(found) => match found.known {
                 Known::Parts(parts) => assert!(parts.iter().flatten().all(|&node| node < 6)),
-                Known::Displacements(known) => {
+                Known::Displacements(known) | Known::OwnFrame { given: known, .. } => {
                     assert!(!known.is_empty());
                     assert!(known.groups().iter().flatten().all(|&node| node < 6));
                 }
