@@ -10,6 +10,7 @@ use std::time::Instant;
 use viewcert::Graph;
 use viewcert::decide::{Options, Question, Verdict, decide};
 use viewcert::geometry::model::Model;
+use viewcert::watch::Watch;
 use viewcert_advice::lists::{self, List};
 use viewcert_advice::{Tracks, foreseen};
 use viewcert_formats::{NamedGraph, ReadOptions, open_database, read_graphs};
@@ -73,8 +74,8 @@ impl Asked<'_> {
         let found = found.collect::<Result<Vec<List>>>()?;
         let (images, seed) = (input.graph.nodes() as u32, Options::default().seed);
         let name = |v| input.labels.label(v).into_owned();
-        let found = lists::lists(&found, images, name, seed, session.shown_watch());
-        session.hide();
+        let find = |watch: &Watch| lists::lists(&found, images, name, seed, watch.clone());
+        let found = session.watched(find);
         let found = found.with_context(|| input.name.clone())?;
         say(&ListReport {
             input: &input,

@@ -64,9 +64,9 @@ impl Asked<'_> {
         let (found, verdict) = match &mut tracks {
             None => (two.merge(), None),
             Some((input, features)) => {
-                let (seed, watch) = (Options::default().seed, session.shown_watch());
-                let found = merge::of_tracks(&two, input, features, seed, &watch);
-                session.hide();
+                let seed = Options::default().seed;
+                let found =
+                    session.watched(|watch| merge::of_tracks(&two, input, features, seed, watch));
                 let (found, verdict) = found.with_context(|| input.name.clone())?;
                 (found, Some(verdict))
             }

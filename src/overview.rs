@@ -239,8 +239,7 @@ fn overview(
             Model::Calibrated => Options::default().question(Question::calibrated(known)),
             _ => Options::default().model(model),
         };
-        let verdict = decide(&input.graph, &options.watch(session.shown_watch()));
-        session.hide();
+        let verdict = session.watched(|watch| decide(&input.graph, &options.watch(watch.clone())));
         verdict.with_context(|| input.name.clone())
     };
     let pairs = source.pairs.as_ref().map(|input| -> Result<_> {
@@ -297,8 +296,7 @@ fn overview(
         verdict,
         options: wish.of_tracks.tracks.unwrap_or_default(),
     });
-    let forecast = foreseen(database, images, of_tracks, session.shown_watch());
-    session.hide();
+    let forecast = session.watched(|watch| foreseen(database, images, of_tracks, watch.clone()));
     let (mappers, narrow) = forecast?;
     let no_joints = Advice::default();
     let report = |input, verdict, advice, scope| Report {

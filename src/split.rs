@@ -80,8 +80,7 @@ fn taken_apart(session: &Session, arguments: &SplitArguments) -> Result<u8> {
         counted(posed.images.len(), "image")
     );
     session.hide();
-    let held = held(&posed.exact(), &session.shown_watch());
-    session.hide();
+    let held = session.watched(|watch| held(&posed.exact(), watch));
     let held = held.with_context(|| path.display().to_string())?;
     session.doing(format!("measuring {}", path.display()));
     let softness = softness(&posed, held.is_scaled);

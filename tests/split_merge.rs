@@ -289,15 +289,12 @@ fn shared_places_leave_the_scale_free() {
     };
     groups(&at.join("model"), &both(6));
     let images = at.join("model/images.txt");
-    let text = fs::read_to_string(&images).unwrap();
-    fs::write(
-        &images,
-        text.replace(
-            &format!("5 1 0 0 0 {} 1", place(4)),
-            &format!("5 1 0 0 0 {} 1", place(3)),
-        ),
-    )
-    .unwrap();
+    let at_one_place = || {
+        let text = fs::read_to_string(&images).unwrap();
+        let [of, other] = [4, 3].map(|k| format!("5 1 0 0 0 {} 1", place(k)));
+        fs::write(&images, text.replace(&of, &other)).unwrap();
+    };
+    at_one_place();
     let found = run(at, "split", &["model", "out", "--json"]);
     assert_eq!(found.code, 1, "{}", found.err);
     let line = &found.json()[0];
@@ -311,15 +308,7 @@ fn shared_places_leave_the_scale_free() {
     let mut more = both(6);
     more.push(((0..8).collect(), place(600)));
     groups(&at.join("model"), &more);
-    let text = fs::read_to_string(&images).unwrap();
-    fs::write(
-        &images,
-        text.replace(
-            &format!("5 1 0 0 0 {} 1", place(4)),
-            &format!("5 1 0 0 0 {} 1", place(3)),
-        ),
-    )
-    .unwrap();
+    at_one_place();
     assert_eq!(run(at, "split", &["model", "out"]).code, 0);
 }
 

@@ -147,25 +147,36 @@ pub(crate) fn check(
 
 /// Sees that what is claimed is what was found.
 fn compare(claim: &BaseLinesClaim, found: &BaseLines) -> Checked<()> {
-    for (name, claimed, value) in [
-        ("at_least", claim.at_least, found.at_least),
-        ("at_most", claim.at_most, found.at_most),
-        ("required", claim.required, found.required),
-    ] {
-        ensure!(claimed == value, "`{name}` is {value}, not {claimed}");
-    }
-    let value = found.value();
-    ensure!(
-        claim.value == value,
-        "`{}` is claimed, but the evidence gives `{value}`",
-        claim.value
-    );
     ensure!(
         claim.about_one_axis == found.about_one_axis,
         "`about_one_axis` is there with `one_axis`, and not without"
     );
+    compare_ranks(
+        [claim.at_least, claim.at_most, claim.required],
+        [found.at_least, found.at_most, found.required],
+        [&claim.value, found.value()],
+        (&claim.strength, claim.error_log2),
+    )
+}
+
+/// Sees that the bounds of a rank, the rank that is required, and what follows are claimed as they were found, as
+/// proofs.
+pub(crate) fn compare_ranks(
+    claimed: [i64; 3],
+    found: [i64; 3],
+    [value, follows]: [&str; 2],
+    (strength, error_log2): (&str, Option<i64>),
+) -> Checked<()> {
+    for (k, name) in ["at_least", "at_most", "required"].into_iter().enumerate() {
+        let (claimed, found) = (claimed[k], found[k]);
+        ensure!(claimed == found, "`{name}` is {found}, not {claimed}");
+    }
     ensure!(
-        claim.strength == "proof" && claim.error_log2.is_none(),
+        value == follows,
+        "`{value}` is claimed, but the evidence gives `{follows}`"
+    );
+    ensure!(
+        strength == "proof" && error_log2.is_none(),
         "the strength is not a proof"
     );
     Ok(())

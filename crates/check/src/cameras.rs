@@ -3,7 +3,7 @@
 
 use crate::algebra::{Field, Integers, Ring, is_prime};
 use crate::rejection::{Checked, ensure};
-use crate::vectors::Vector;
+use crate::vectors::{Vector, gcd};
 use sha2::{Digest, Sha256};
 
 /// The key stream, as little-endian words of 64 bits.
@@ -217,11 +217,6 @@ pub(crate) fn centre<R: Ring>(ring: &R, [x, y, z]: &Camera<R::E>) -> [R::E; 4] {
         };
         ring.add(ring.add(term(a, b, c), term(b, c, a)), term(c, a, b))
     })
-}
-
-/// The greatest common divisor, not negative.
-pub(crate) fn gcd(a: i128, b: i128) -> i128 {
-    if b == 0 { a.abs() } else { gcd(b, a % b) }
 }
 
 #[cfg(test)]

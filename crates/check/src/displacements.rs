@@ -2,7 +2,7 @@
 //! 13.16).
 
 use crate::document::Model;
-use crate::graph::Graph;
+use crate::graph::{Graph, hex};
 use crate::json::Big;
 use crate::rejection::{Checked, ensure};
 use sha2::{Digest, Sha256};
@@ -57,7 +57,7 @@ pub(crate) fn check_groups(
         groups: groups.len(),
         nodes: groups.iter().map(Vec::len).sum(),
         given: vectors.is_some(),
-        sha256: hash(groups, vectors),
+        sha256: hex(&digest(groups, vectors)),
     })
 }
 
@@ -101,7 +101,7 @@ pub(crate) fn check_given(stated: Option<&Displacements>, given: &Graph) -> Chec
 }
 
 /// The hash of groups, and of their vectors if these are given.
-pub(crate) fn hash(groups: &[Vec<u32>], vectors: Option<&[Vec<[Big<i128>; 3]>]>) -> String {
+pub(crate) fn digest(groups: &[Vec<u32>], vectors: Option<&[Vec<[Big<i128>; 3]>]>) -> [u8; 32] {
     let mut hash = Sha256::new();
     let version = 1 + usize::from(vectors.is_some());
     hash.update(format!("viewcert displacements {version}\n"));
@@ -115,6 +115,5 @@ pub(crate) fn hash(groups: &[Vec<u32>], vectors: Option<&[Vec<[Big<i128>; 3]>]>)
     for Big(coordinate) in vectors.into_iter().flatten().flatten().flatten() {
         hash.update(format!("{coordinate}\n"));
     }
-    let digits = hash.finalize();
-    digits.iter().map(|byte| format!("{byte:02x}")).collect()
+    hash.finalize().into()
 }

@@ -235,7 +235,8 @@ impl GraphName {
     }
 }
 
-fn hex(bytes: &[u8; 32]) -> String {
+/// A hash in lower-case hexadecimal digits.
+pub(crate) fn hex(bytes: &[u8; 32]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 

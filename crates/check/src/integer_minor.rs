@@ -3,7 +3,7 @@
 //! (theory, section 8), so that no number is computed that is larger than those of the certificate.
 
 use crate::algebra::{Field, Integers, is_prime};
-use crate::cameras::{self, Camera, Stream, gcd};
+use crate::cameras::{self, Camera, Stream};
 use crate::core::Core;
 use crate::document::IntegerMinor;
 use crate::elimination::{Echelon, Factors, SPARSE};
@@ -13,6 +13,7 @@ use crate::matrices::{jacobian, map_motion, scale_motion};
 use crate::pivots::Pivots;
 use crate::rejection::{Checked, Failure, Within, ensure};
 use crate::setting::{Lower, Setting};
+use crate::vectors::gcd;
 
 /// The primes modulo which integers are compared have at least this many bits behind the first.
 const PRIME_BITS: u64 = 61;

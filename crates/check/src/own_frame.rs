@@ -2,18 +2,19 @@
 //! 13.31): the rotation of each part against it is unknown.
 
 use crate::algebra::{Field, Ring};
+use crate::base_lines::compare_ranks;
 use crate::cameras::Stream;
-use crate::displacements::hash;
+use crate::displacements::digest;
 use crate::document::base_lines::Lower;
 use crate::document::own_frame::{OwnFrame as Stated, OwnFrameClaim, Upper};
 use crate::document::{Document, Model};
 use crate::elimination::{Echelon, Factors, SPARSE};
 use crate::forest::{root, unite};
-use crate::graph::Graph;
+use crate::graph::{Graph, hex};
 use crate::pivots::Pivots;
 use crate::rejection::{Checked, Within, ensure};
 use crate::structure::Structure;
-use crate::vectors::Vectors;
+use crate::vectors::{Vectors, gcd};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fmt;
 
@@ -89,6 +90,8 @@ pub(crate) struct Supposed<'a> {
     /// The group of each node that is in one.
     group: HashMap<u32, usize>,
     pub vectors: Option<Vectors>,
+    /// The hash of what is given, and its digits.
+    digest: [u8; 32],
     sha256: String,
 }
 
@@ -115,12 +118,14 @@ impl<'a> Supposed<'a> {
         let groups = &stated.groups;
         crate::displacements::check_form(groups, nodes)?;
         let vectors = stated.vectors.as_deref();
+        let digest = digest(groups, vectors);
         let of_groups = groups.iter().enumerate();
         let group = of_groups.flat_map(|(g, group)| group.iter().map(move |&v| (v, g)));
         Ok(Some(Self {
             stated,
             group: group.collect(),
-            sha256: hash(groups, vectors),
+            sha256: hex(&digest),
+            digest,
             vectors: vectors
                 .map(|vectors| crate::vectors::check_places(vectors, groups, nodes))
                 .transpose()?,
@@ -423,15 +428,7 @@ impl<'a> System<'a> {
         let size = (self.points.len() + self.rows.len()) as u64;
         setting.meter.charge(50 * SPARSE * size)?;
         let field = &Field::new(evidence.prime.0)?;
-        let mut sha256 = [0; 32];
-        for (byte, digits) in sha256
-            .iter_mut()
-            .zip(self.supposed.sha256.as_bytes().chunks(2))
-        {
-            let digit = |d: u8| (d as char).to_digit(16).unwrap_or(0) as u8;
-            *byte = 16 * digit(digits[0]) + digit(digits[1]);
-        }
-        let hashes = [&setting.sha256, &sha256];
+        let hashes = [&setting.sha256, &self.supposed.digest];
         let mut stream = Stream::new("draw", hashes, evidence.seed.0, evidence.draw);
         let mut vector = || [(); 3].map(|()| field.element(stream.below(field.p)));
         let mut origins: HashMap<usize, [u64; 3]> = HashMap::new();
@@ -489,14 +486,7 @@ impl<'a> System<'a> {
 
 /// A vector without its length and sign.
 fn primitive(vector: [i128; 3]) -> [i128; 3] {
-    let mut divisor: i128 = 0;
-    for n in vector {
-        let (mut a, mut b) = (divisor, n.abs());
-        while b != 0 {
-            (a, b) = (b, a % b);
-        }
-        divisor = a;
-    }
+    let divisor = vector.into_iter().fold(0, gcd);
     let first = vector.into_iter().find(|&n| n != 0).unwrap_or(1);
     let divisor = divisor.max(1) * first.signum();
     vector.map(|n| n / divisor)
@@ -504,22 +494,10 @@ fn primitive(vector: [i128; 3]) -> [i128; 3] {
 
 /// Sees that what is claimed is what was found.
 fn compare(claim: &OwnFrameClaim, found: &OwnFrame) -> Checked<()> {
-    for (name, claimed, value) in [
-        ("at_least", claim.at_least, found.at_least),
-        ("at_most", claim.at_most, found.at_most),
-        ("required", claim.required, found.required),
-    ] {
-        ensure!(claimed == value, "`{name}` is {value}, not {claimed}");
-    }
-    let value = found.value();
-    ensure!(
-        claim.value == value,
-        "`{}` is claimed, but the evidence gives `{value}`",
-        claim.value
-    );
-    ensure!(
-        claim.strength == "proof" && claim.error_log2.is_none(),
-        "the strength is not a proof"
-    );
-    Ok(())
+    compare_ranks(
+        [claim.at_least, claim.at_most, claim.required],
+        [found.at_least, found.at_most, found.required],
+        [&claim.value, found.value()],
+        (&claim.strength, claim.error_log2),
+    )
 }

@@ -95,12 +95,9 @@ fn check_group(group: &[u32], list: &[Vector]) -> Checked<()> {
     Ok(())
 }
 
-fn gcd(a: i128, b: i128) -> i128 {
-    let (mut a, mut b) = (a.abs(), b.abs());
-    while b != 0 {
-        (a, b) = (b, a % b);
-    }
-    a
+/// The greatest common divisor, not negative.
+pub(crate) fn gcd(a: i128, b: i128) -> i128 {
+    if b == 0 { a.abs() } else { gcd(b, a % b) }
 }
 
 fn minus(a: Vector, b: Vector) -> Option<Vector> {

@@ -79,8 +79,7 @@ impl Frames {
 
     /// The hash in lower-case hexadecimal digits.
     pub(super) fn digits(&self) -> String {
-        let digits = self.sha256.iter();
-        digits.map(|byte| format!("{byte:02x}")).collect()
+        crate::graph::hex(&self.sha256)
     }
 }
 

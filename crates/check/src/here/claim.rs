@@ -119,11 +119,7 @@ pub(super) fn claim(
     Ok(VerifiedHere {
         size: [graph.nodes(), graph.pairs.len()],
         sha256: document.graph.sha256.clone(),
-        centres_sha256: centres
-            .sha256
-            .iter()
-            .map(|byte| format!("{byte:02x}"))
-            .collect(),
+        centres_sha256: crate::graph::hex(&centres.sha256),
         model: document.model,
         is_determined,
         rank: (found.rank, of_rank),

@@ -11,6 +11,7 @@ use crate::bodies::Known;
 use crate::cameras::Stream;
 use crate::document::Model;
 use crate::elimination::{Echelon, Factors, SPARSE};
+use crate::graph::hex;
 use crate::json::{ensure_first, parse};
 use crate::limits::Meter;
 use crate::pivots::Pivots;
@@ -136,10 +137,6 @@ impl IntrinsicsCertificate {
         };
         checker.check(&graph)
     }
-}
-
-fn hex(hash: &[u8; 32]) -> String {
-    hash.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 struct Checker<'a> {

@@ -63,7 +63,7 @@ fn the_hash_is_that_of_the_page() {
     let lists = [vec![[3, 0, -2].map(Big)], vec![[0, 0, 20].map(Big)]];
     let groups = [vec![1, 4], vec![2, 3]];
     assert_eq!(
-        crate::displacements::hash(&groups, Some(&lists)),
+        crate::graph::hex(&crate::displacements::digest(&groups, Some(&lists))),
         "ef905f274b7c7f9c2b348a53e07546bf10011b1bc2a214baa895914e61549475"
     );
 }

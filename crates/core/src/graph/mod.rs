@@ -34,8 +34,8 @@ pub use labels::Labels;
 pub use leaves::prune_leaves;
 pub use lists::Lists;
 pub use union_find::UnionFind;
-pub(crate) use vectors::Hanging;
 pub use vectors::{Coordinate, CoordinateError};
+pub(crate) use vectors::{Hanging, gcd};
 pub use viewing_graph::Graph;
 
 #[cfg(test)]

@@ -149,7 +149,7 @@ fn decimal(text: &str) -> Result<(i128, i128), CoordinateError> {
 }
 
 /// The greatest common divisor, not negative.
-fn gcd(a: i128, b: i128) -> i128 {
+pub(crate) fn gcd(a: i128, b: i128) -> i128 {
     let (mut a, mut b) = (a.abs(), b.abs());
     while b != 0 {
         (a, b) = (b, a % b);

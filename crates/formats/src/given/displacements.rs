@@ -9,9 +9,8 @@ use crate::cameras::Cameras;
 use crate::edge_list::fields::Field;
 use crate::edge_list::refusal::shown;
 use crate::error::{Fault, Place, Problem};
-use crate::given::{Given, at_one_place, one_place, turned, unmeasured};
+use crate::given::{Given, at_one_place, known_in, one_place, turned, unmeasured};
 use std::collections::{BTreeSet, HashMap};
-use viewcert::Known;
 use viewcert::graph::{Coordinate, CoordinateError, Displacements, VectorError};
 use viewcert::wording::counted;
 
@@ -168,13 +167,7 @@ impl Lines {
             "are of no pairs of the graph: their directions are known with them",
         );
         notes.extend(same);
-        let known = match one_frame {
-            true => Known::Displacements(known),
-            false => Known::OwnFrame {
-                given: known,
-                rigs: Displacements::default(),
-            },
-        };
+        let known = known_in(known, one_frame);
         Ok(Given { known, notes })
     }
 

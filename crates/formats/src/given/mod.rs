@@ -261,6 +261,17 @@ fn unmeasured(
     (alone, note)
 }
 
+/// Displacements in the frame of the directions, or in one of their own.
+fn known_in(given: Displacements, one_frame: bool) -> Known {
+    match one_frame {
+        true => Known::Displacements(given),
+        false => Known::OwnFrame {
+            given,
+            rigs: Displacements::default(),
+        },
+    }
+}
+
 /// Cameras of one part at one place have one position: that of the first of them. Returns the others
 /// that are left out, and a note about them. All cameras are one part if they have one frame.
 fn at_one_place<'p>(

@@ -12,8 +12,7 @@ use crate::cameras::Cameras;
 use crate::colmap::{PosePriors, pose_priors};
 use crate::error::{Fault, Place, Problem, ReadError};
 use crate::given::displacements::long_vectors;
-use crate::given::{Given, POSITIONS, at_one_place, one_place, unmeasured};
-use viewcert::Known;
+use crate::given::{Given, POSITIONS, at_one_place, known_in, one_place, unmeasured};
 use viewcert::graph::{Coordinate, CoordinateError, Displacements};
 use viewcert::wording::counted;
 
@@ -100,13 +99,7 @@ fn of(priors: &PosePriors, graph: &NamedGraph, one_frame: bool) -> Result<Given,
     let group = group.ok_or_else(|| Place::Input.fault(long_vectors()))?;
     let notes = notes(priors, count, strangers, one_frame);
     Ok(Given {
-        known: match one_frame {
-            true => Known::Displacements(group),
-            false => Known::OwnFrame {
-                given: group,
-                rigs: Displacements::default(),
-            },
-        },
+        known: known_in(group, one_frame),
         notes: notes.into_iter().chain(same).chain(of_alone).collect(),
     })
 }

@@ -7,7 +7,7 @@ use super::TurningPart;
 use crate::contract::Contraction;
 use crate::contract::piece::Members as Block;
 use crate::geometry::placed::Placed;
-use crate::graph::{Displacements, Graph, UnionFind};
+use crate::graph::{Displacements, Graph, UnionFind, gcd};
 
 /// A body or a loose edge.
 pub(super) struct Member {
@@ -250,13 +250,6 @@ impl Parts {
 
 /// A vector without its length and sign.
 fn primitive(vector: [i128; 3]) -> [i128; 3] {
-    let gcd = |a: i128, b: i128| {
-        let (mut a, mut b) = (a.abs(), b.abs());
-        while b != 0 {
-            (a, b) = (b, a % b);
-        }
-        a
-    };
     let length = vector.into_iter().fold(0, gcd).max(1);
     let is_negative = vector.iter().find(|&&n| n != 0).is_some_and(|&n| n < 0);
     let length = if is_negative { -length } else { length };
