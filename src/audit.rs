@@ -4,15 +4,14 @@
 use super::certificates::Target;
 use super::input::{self, InputArguments};
 use crate::given::{noted, too_many};
-use crate::here;
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use clap::Args;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use viewcert::Model;
+use viewcert::at_cameras::{Centres, Here};
 use viewcert::decide;
-use viewcert::here::{Centres, Here};
 use viewcert_audit::at_cameras::{self, FloatClaim, SigmaError, ruled, sigma};
 use viewcert_audit::claims::{self, Ruling};
 use viewcert_audit::enclosure::{Enclosure, Matrix};
@@ -394,7 +393,8 @@ fn exact(session: &Session, input: &NamedGraph, path: &Path, model: Model) -> Re
         );
     };
     let input = noted(input, cameras.notes).into_owned();
-    let here = session.watched(|watch| here::decide(&input, &cameras.centres, watch))?;
+    let here =
+        session.watched(|watch| crate::at_cameras::decide(&input, &cameras.centres, watch))?;
     Ok(Exact {
         input,
         centres: cameras.centres,

@@ -5,23 +5,23 @@ use super::given::{Beside, read_beside};
 use super::input::{Reading, SIDE_BY_SIDE};
 use super::plan::{Form, Plan, Products};
 use super::witness;
-use super::{here, input, intrinsics};
+use super::{at_cameras, input, intrinsics};
 use anyhow::{Context, Error, Result, ensure};
 use std::borrow::Cow;
 use std::io::Write;
 use std::path::Path;
 use std::time::{Duration, Instant};
 use viewcert::Known;
+use viewcert::at_cameras::{Centres, Here};
 use viewcert::decide as verdict;
 use viewcert::decide::{CountSolutions, Prime, Verdict};
-use viewcert::here::{Centres, Here};
 use viewcert::intrinsics::{Certified, Sensors};
 use viewcert::watch::Watch;
 use viewcert_advice::priors::Priors;
 use viewcert_advice::{Advice, Shapes};
 use viewcert_formats::NamedGraph;
 use viewcert_report::assumptions::{BaseLines, Scope, out_of_planes};
-use viewcert_report::here::HereReport;
+use viewcert_report::at_cameras::HereReport;
 use viewcert_report::intrinsics::IntrinsicsLine;
 use viewcert_report::many::Table;
 use viewcert_report::motion;
@@ -187,8 +187,8 @@ impl Work<'_> {
         match besides {
             Besides::Nothing => {}
             Besides::Cameras(centres) => {
-                open = here::open(plan.asked, input, centres)?;
-                let decided = session.watched(|watch| here::decide(input, centres, watch))?;
+                open = at_cameras::open(plan.asked, input, centres)?;
+                let decided = session.watched(|watch| at_cameras::decide(input, centres, watch))?;
                 here = Some((decided, centres));
             }
             Besides::Sensors(sensors) => {
@@ -227,7 +227,7 @@ impl Work<'_> {
         let advice = advice.with_context(name)?;
         let is_drawn = plan.products.page.is_some() || plan.products.picture.is_some();
         let motions = match &here {
-            Some((here, centres)) if is_drawn => here::motions(here, centres, session)?,
+            Some((here, centres)) if is_drawn => at_cameras::motions(here, centres, session)?,
             _ => Vec::new(),
         };
         let report = Report {

@@ -7,7 +7,7 @@ use anyhow::{Result, ensure};
 use clap::Args;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
-use viewcert::here::Centres;
+use viewcert::at_cameras::Centres;
 use viewcert::{Known, Model};
 use viewcert_formats::{NamedGraph, beside};
 

@@ -6,6 +6,7 @@
 //! [`OverviewAsked`], [`ListsAsked`], [`MergeAsked`], [`check_archive`].
 
 mod advise;
+mod at_cameras;
 mod audit;
 mod bounds;
 mod catalog;
@@ -18,7 +19,6 @@ mod draw;
 mod export;
 mod given;
 mod help;
-mod here;
 mod input;
 mod intrinsics;
 mod label;

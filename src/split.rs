@@ -5,7 +5,7 @@ use anyhow::{Context, Result, anyhow, ensure};
 use clap::Args;
 use std::path::PathBuf;
 use std::time::Instant;
-use viewcert::here::finished::held;
+use viewcert::at_cameras::finished::held;
 use viewcert_advice::split::{self, Free};
 use viewcert_audit::softness::softness;
 use viewcert_formats::error::Problem;

@@ -599,7 +599,7 @@ fn folders_and_lists_are_checked_whole() {
 
     // Of the two other kinds.
     let tests = root().join("crates/check/tests");
-    let others = ["here/line.json", "intrinsics/twins.json"];
+    let others = ["at_cameras/line.json", "intrinsics/twins.json"];
     for (name, other) in ["c.json", "d.json"].into_iter().zip(others) {
         std::fs::copy(tests.join(other), path.join(name)).unwrap();
     }

@@ -577,13 +577,13 @@ fn small_files_cost_little() {
         serde_json::from_str(&fs::read_to_string(Path::new(&tests).join(path)).unwrap()).unwrap()
     };
     let folder = Folder::new(&[]);
-    let mut many = read("here/line.json");
+    let mut many = read("at_cameras/line.json");
     many["pieces"][0]["primes"] = json!(1_000_000_000_000_000_u64);
     let many = folder.write("primes.json", &many.to_string());
     all_say(1, &[&many]);
     assert!(first_checker(&[&many]).err.contains("are a proof"));
     // Reading a number takes the square of its length, and is counted.
-    let mut long = read("here/matrices.json");
+    let mut long = read("at_cameras/matrices.json");
     long["cameras"][0][0] = json!(format!("1{}", "0".repeat(90_000)));
     let long = folder.write("long.json", &long.to_string());
     let run = first_checker(&[&long, "--max-operations", "1000000"]);
@@ -593,7 +593,7 @@ fn small_files_cost_little() {
         run.err
     );
     // The centre is the same, however the matrix is scaled along an axis.
-    let short = tests.join("here/matrices.json");
+    let short = tests.join("at_cameras/matrices.json");
     let short = first_checker(&[short.to_str().unwrap()]);
     for checker in [verify_check, first_checker] {
         let run = checker(&[&long]);

@@ -6,15 +6,15 @@
 //! done without the interpreter's lock, and can be interrupted (`work`).
 
 mod all;
+mod at_cameras;
 mod catalog;
 mod check;
 mod decided;
 mod errors;
 mod files;
 mod graph;
-mod here;
-mod kept;
 mod matrices;
+mod pickled;
 mod places;
 mod program;
 mod scenes;
@@ -29,6 +29,8 @@ mod _native {
     #[pymodule_export]
     use super::all::decide_all;
     #[pymodule_export]
+    use super::at_cameras::{AtCameras, Cameras, VerifiedAtCameras, check_at_cameras};
+    #[pymodule_export]
     use super::catalog::{Candidates, label, label_graph6};
     #[pymodule_export]
     use super::check::{Verified, VerifiedIntrinsics, check, check_intrinsics};
@@ -39,11 +41,9 @@ mod _native {
     #[pymodule_export]
     use super::graph::{Graph, graph_of_integers, graph_of_nodes, read};
     #[pymodule_export]
-    use super::here::{AtCameras, Cameras, VerifiedAtCameras, check_at_cameras};
-    #[pymodule_export]
-    use super::kept::{about_graph, graph_kept, same_graph};
-    #[pymodule_export]
     use super::matrices::rigidity_matrix;
+    #[pymodule_export]
+    use super::pickled::{about_graph, graph_kept, same_graph};
     #[pymodule_export]
     use super::places::{component_of_pairs, pairs_among};
     #[pymodule_export]

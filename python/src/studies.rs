@@ -2,10 +2,10 @@
 //!
 //! In: graphs and verdicts. Out: what the report crate says, as JSON and as text.
 
+use crate::at_cameras::AtCameras;
 use crate::decided::{Decided, Wanted};
 use crate::errors::{InputError, TooLarge, of_any, of_deciding};
 use crate::graph::Graph;
-use crate::here::AtCameras;
 use crate::work::{self, Job};
 use anyhow::anyhow;
 use pyo3::prelude::*;

@@ -1,8 +1,8 @@
 //! What mappers will probably do with a database: the simulation, and its geometry read on demand.
 
+use crate::degenerate::{Narrow, narrow};
 use crate::frames::Images;
 use crate::mapper::{Features, Foreseen, Geometry, Taken, foresee};
-use crate::special::{Narrow, narrow};
 use anyhow::{Context, Result};
 use viewcert::decide::{Options, decide};
 use viewcert::watch::Watch;

@@ -7,6 +7,8 @@
 //! [`viewcert`]; cores are those of docs/theory.md, section 4. [`Request`] asks for several of these at once and answers in the user's
 //! names ([`named`]); [`export`] writes components as COLMAP takes them.
 
+pub mod bottlenecks;
+pub mod degenerate;
 pub mod explain;
 pub mod export;
 pub mod joints;
@@ -15,12 +17,10 @@ pub mod mapper;
 pub mod merge;
 pub mod misfit;
 pub mod named;
-pub mod narrow;
-pub mod noticed;
 pub mod parts;
 pub mod priors;
+pub mod redundancy;
 pub mod request;
-pub mod special;
 pub mod split;
 pub mod suggest;
 pub mod weak;
@@ -38,8 +38,8 @@ pub use explain::{Explanation, explain};
 pub use foreseen::{Tracks, foreseen};
 pub use joints::{How, Joint, Joints, Shapes, joints};
 pub use named::Advice;
-pub use noticed::{Break, Lost, Surplus, redundant, surplus};
 pub use parts::{Part, Parts};
+pub use redundancy::{Break, Lost, Surplus, redundant, surplus};
 pub use request::Request;
 pub use suggest::{
     Candidate, Near, Nearness, Reason, SuggestedMatch, Suggestion, Tried, gap, suggest,

@@ -1,7 +1,7 @@
 //! What was found, in the user's names: the members of `verify --json` (docs/reconstruction.md).
 //! Components are counted from 1 here, as in the text.
 
-use crate::noticed::{Implied, Redundant, Surpluses};
+use crate::redundancy::{Implied, Redundant, Surpluses};
 use serde::Serialize;
 use viewcert_formats::NamedGraph;
 

@@ -9,7 +9,7 @@ use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
-use viewcert::here::finished::{Held, Hinge, Motion};
+use viewcert::at_cameras::finished::{Held, Hinge, Motion};
 use viewcert_formats::model::{Model, Posed, is_file_of_model};
 use viewcert_session::Outputs;
 

@@ -2,7 +2,7 @@ use super::*;
 use crate::enclosure::{Enclosure, Matrix, enclose};
 use proptest::prelude::*;
 use viewcert::Model;
-use viewcert::here::Centres;
+use viewcert::at_cameras::Centres;
 use viewcert::linalg::integer::{Integer, Integers};
 use viewcert::linalg::rational::Rational;
 use viewcert::watch::Watch;

@@ -14,8 +14,8 @@ import gzip
 import itertools
 import sys
 
-from here import FORMAT as AT_CAMERAS
-from here import HereCheck
+from at_cameras import FORMAT as AT_CAMERAS
+from at_cameras import HereCheck
 from intrinsics import FORMAT as OF_INTRINSICS
 from intrinsics import IntrinsicsCheck
 from graphs import read_given

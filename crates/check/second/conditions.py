@@ -22,7 +22,7 @@ import document  # noqa: E402
 import draws  # noqa: E402
 import elimination  # noqa: E402
 import graphs  # noqa: E402
-import here  # noqa: E402
+import at_cameras as here  # noqa: E402
 import intrinsics  # noqa: E402
 import lower  # noqa: E402
 import matrices  # noqa: E402
@@ -35,7 +35,7 @@ import upper  # noqa: E402
 import test_base_lines  # noqa: E402
 import test_check  # noqa: E402
 import test_displacements  # noqa: E402
-import test_here  # noqa: E402
+import test_at_cameras  # noqa: E402
 import test_intrinsics  # noqa: E402
 import test_own_frame  # noqa: E402
 import test_parts  # noqa: E402
@@ -46,7 +46,7 @@ CHECKER = (
     base_lines, bodies, check, claim, cores, document, draws, elimination, graphs, here, intrinsics, lower, matrices, notation,
     own_frame, pieces, solutions, supposed, upper,
 )
-TESTS = (test_base_lines, test_check, test_displacements, test_here, test_intrinsics, test_own_frame, test_parts, test_pebbles, test_solutions)
+TESTS = (test_base_lines, test_check, test_displacements, test_at_cameras, test_intrinsics, test_own_frame, test_parts, test_pebbles, test_solutions)
 REFUSALS = (notation.Reject, notation.Unreadable, notation.TooLarge)
 
 

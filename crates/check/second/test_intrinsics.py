@@ -151,7 +151,7 @@ class IntrinsicsTests(unittest.TestCase):
         # Other classes are another draw, and another claim.
         self.refused("section 15", self.changed("mixed", "classes", 0, "known"))
         tests = os.path.join(HERE, "..", "tests")
-        for path in ("here/line.json", "certificates/prism.json"):
+        for path in ("at_cameras/line.json", "certificates/prism.json"):
             with open(os.path.join(tests, path), "rb") as file:
                 data = file.read()
             with self.assertRaisesRegex(notation.Reject, "are not those that are named"):

@@ -1,7 +1,7 @@
 //! A certificate of whichever kind: its member `format` says which, and it is read once.
 
+use crate::at_cameras::{self, HereCertificate, VerifiedHere};
 use crate::document::Model;
-use crate::here::{self, HereCertificate, VerifiedHere};
 use crate::intrinsics::{self, IntrinsicsCertificate, VerifiedIntrinsics};
 use crate::json::Name;
 use crate::{Certificate, Failure, Graph, Limits, Strength, Verified};
@@ -26,7 +26,7 @@ impl AnyCertificate {
     /// What is wrong with it.
     pub fn parse(text: &[u8]) -> Result<Self, Failure> {
         Ok(match format_of(text).as_deref() {
-            Some(here::FORMAT) => Self::AtCameras(Box::new(HereCertificate::parse(text)?)),
+            Some(at_cameras::FORMAT) => Self::AtCameras(Box::new(HereCertificate::parse(text)?)),
             Some(intrinsics::FORMAT) => {
                 Self::Intrinsics(Box::new(IntrinsicsCertificate::parse(text)?))
             }

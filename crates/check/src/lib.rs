@@ -38,6 +38,7 @@
 //! 11), `rejection` has the reasons.
 
 mod algebra;
+mod at_cameras;
 mod base_lines;
 mod bodies;
 mod cameras;
@@ -53,7 +54,6 @@ mod evidence;
 mod expected;
 mod forest;
 mod graph;
-mod here;
 mod integer_minor;
 mod intrinsics;
 mod json;
@@ -74,6 +74,7 @@ mod solutions;
 mod structure;
 mod vectors;
 
+pub use at_cameras::{HereCertificate, VerifiedHere};
 pub use base_lines::BaseLines;
 pub use claim::{Strength, Verdict, Verified};
 pub use displacements::Displacements;
@@ -81,7 +82,6 @@ pub use document::Model;
 pub use document::Number;
 pub use expected::{Expected, VERDICTS};
 pub use graph::Graph;
-pub use here::{HereCertificate, VerifiedHere};
 pub use intrinsics::{IntrinsicsCertificate, VerifiedIntrinsics};
 pub use kinds::{AnyCertificate, AnyVerified};
 pub use limits::Limits;

@@ -3,10 +3,10 @@
 mod changes;
 
 mod affine;
+mod at_cameras;
 mod base_lines;
 mod conditions;
 mod displacements;
-mod here;
 mod intrinsics;
 mod parts;
 mod solutions;

@@ -411,7 +411,7 @@ fn files_that_are_no_certificates() {
 #[test]
 fn cameras_and_classes_are_named() {
     for (name, option, between) in [
-        ("../here/square", "--centres", ("with centres ", "\n")),
+        ("../at_cameras/square", "--centres", ("with centres ", "\n")),
         ("../intrinsics/pair", "--classes", ("with classes ", " ")),
     ] {
         let certificate = path(name);

@@ -38,12 +38,12 @@
 //! evidence as a [`certificate`]. What is determined at cameras that are given is another question
 //! ([`here`](mod@here)). Nothing here reads a file, prints, or computes in floating point.
 
+pub mod at_cameras;
 pub mod certificate;
 pub mod contract;
 pub mod decide;
 pub mod geometry;
 pub mod graph;
-pub mod here;
 pub mod intrinsics;
 pub mod linalg;
 mod named;

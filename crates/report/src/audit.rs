@@ -2,14 +2,14 @@
 
 use super::json::{GraphLine, write_line};
 use super::read::ReadLine;
-use super::{counted, here, size, text};
+use super::{at_cameras, counted, size, text};
 use serde_json::json;
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::time::Duration;
+use viewcert::at_cameras::Here;
 use viewcert::certificate::hex;
 use viewcert::decide::Verdict;
-use viewcert::here::Here;
 use viewcert::wording::printable;
 use viewcert_audit::at_cameras::FloatClaim;
 use viewcert_audit::claims::Ruling;
@@ -273,7 +273,7 @@ impl AtCameras<'_> {
         write!(
             out,
             "{} ({strength}), {}, rank {} of {}",
-            here::answer(here, &self.input.graph, None),
+            at_cameras::answer(here, &self.input.graph, None),
             counted(here.components.value.len(), "component"),
             here.rank.value,
             here.required

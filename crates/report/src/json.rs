@@ -7,7 +7,7 @@ use super::tracks;
 use super::tracks::TrackLine;
 use super::{Report, WrittenProof};
 use crate::assumptions::{BaseLines, Planar, Scope};
-use crate::here::HereLine;
+use crate::at_cameras::HereLine;
 use crate::intrinsics::IntrinsicsLine;
 use crate::own_frame::OwnFrameLine;
 use serde::Serialize;

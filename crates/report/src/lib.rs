@@ -4,10 +4,11 @@
 
 pub mod advice;
 pub mod assumptions;
+pub mod at_cameras;
 pub mod audit;
+mod bottlenecks;
 mod condition;
 pub mod database;
-pub mod here;
 pub mod intrinsics;
 pub mod json;
 pub mod label;
@@ -17,9 +18,7 @@ mod mappers;
 pub mod merge;
 pub mod models;
 pub mod motion;
-mod narrow;
 pub mod next;
-mod noticed;
 pub mod overview;
 pub mod overview_page;
 pub mod own_frame;
@@ -27,6 +26,7 @@ mod page;
 mod part_names;
 pub mod priors;
 pub mod read;
+mod redundancy;
 pub mod scene;
 mod shown;
 pub mod split;
@@ -98,7 +98,7 @@ pub struct Report<'a> {
     /// The explicit proof that was written.
     pub proof: Option<&'a WrittenProof>,
     /// What holds at cameras that are given.
-    pub here: Option<here::HereReport<'a>>,
+    pub here: Option<at_cameras::HereReport<'a>>,
 }
 
 /// An explicit proof that was written to a file, and what it shows.

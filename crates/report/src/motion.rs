@@ -4,8 +4,8 @@
 //! In: centres and velocities, exact. Out: a picture in floating point, which proves nothing. Velocities are of
 //! first order: arrows are tangents of paths, and their lengths are to scale within one motion only.
 
+use super::at_cameras::HereReport;
 use super::counted;
-use super::here::HereReport;
 use super::scene::{Edge, Kind, Scene, document, text};
 use std::fmt::Write;
 use viewcert::graph::Lists;

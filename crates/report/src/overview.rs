@@ -9,7 +9,7 @@ use super::json::{AnswerLine, GraphLine, write_line};
 use super::read::ReadLine;
 use super::tracks::TrackLine;
 use super::{
-    Report, condition, counted, database, mappers, narrow, part_names, size_of, text, tracks,
+    Report, bottlenecks, condition, counted, database, mappers, part_names, size_of, text, tracks,
 };
 use crate::advice::{joints as write_joints, photograph, suggestions as write_suggestions};
 use crate::assumptions::{BaseLines, Scope};
@@ -23,9 +23,9 @@ use std::time::Duration;
 use viewcert::graph::UnionFind;
 use viewcert::wording::printable;
 use viewcert_advice::Advice;
+use viewcert_advice::degenerate::Narrow;
 use viewcert_advice::mapper::{Foreseen, Sees};
 use viewcert_advice::named::Suggestion;
-use viewcert_advice::special::Narrow;
 use viewcert_formats::colmap::{DatabaseFacts, Groups, Pipeline};
 use viewcert_formats::{NamedGraph, ReadAs, TrackOptions};
 
@@ -548,7 +548,7 @@ impl Overview<'_> {
         self.write_parts(out)?;
         self.write_joints(out)?;
         self.write_suggested(out)?;
-        narrow::write(out, &self.narrow, wrapped)?;
+        bottlenecks::write(out, &self.narrow, wrapped)?;
         let follows = self.follows();
         let mut words = vec![
             format!("global: {}", follows.global),

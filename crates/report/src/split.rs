@@ -6,7 +6,7 @@ use crate::shown::{SHOWN, rest, some_names};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::time::Duration;
-use viewcert::here::finished::Held;
+use viewcert::at_cameras::finished::Held;
 use viewcert::wording::printable;
 use viewcert_advice::split::{Free, Split};
 use viewcert_audit::softness::{ROUNDING, SHARE, Softness};

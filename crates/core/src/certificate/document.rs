@@ -1,6 +1,6 @@
 //! The members of the certificate, borrowed from a verdict.
 
-mod here;
+mod at_cameras;
 mod intrinsics;
 
 use super::EMBED_NODES;

@@ -23,7 +23,7 @@
 //! centres in `drawn`, classes in `motion_class`, bounds in `counting`, the
 //! paper's own matrix (`--method matrix`, `--rational`) in `whole_matrix`, the number of solutions in
 //! `solution_count`. What unknown base lines that frames share add to it is in `base_lines`; what a decided
-//! graph can notice (section 15) in `noticed`. What is asked is in `question`, with what it is decided in
+//! graph can notice (section 15) in `redundancy`. What is asked is in `question`, with what it is decided in
 //! `options`, what is found in [`evidence`], what comes out in `verdict`.
 
 pub mod evidence;
@@ -35,12 +35,12 @@ mod counting;
 mod drawn;
 mod error;
 pub(crate) mod motion_class;
-mod noticed;
 mod one_piece;
 mod options;
 mod own_frame;
 mod plane_piece;
 mod question;
+mod redundancy;
 mod solution_count;
 mod stresses;
 mod vectors;
@@ -55,12 +55,12 @@ pub use claim::{Claim, Strength, UnknownStrength};
 pub(crate) use counting::GAMMA;
 pub use error::VerdictError;
 pub use evidence::{Block, Counting, Hub};
-pub use noticed::{Closure, Groups, closure, groups};
 pub use options::{Options, Prime};
 pub(crate) use own_frame::OwnFrameEvidence;
 pub use own_frame::{OwnFrame, TurningPart};
 pub use plane_piece::{plane_rank, rank_in_plane};
 pub use question::{Arithmetic, CountSolutions, Known, Meaningless, Question};
+pub use redundancy::{Closure, Groups, closure, groups};
 pub use solution_count::SolutionCount;
 pub use verdict::{Component, UnknownValue, Value, Verdict};
 

@@ -253,7 +253,7 @@ mod tests {
     use super::*;
     use crate::model::exact;
     use crate::{ReadOptions, read_graphs};
-    use viewcert::here::Centres;
+    use viewcert::at_cameras::Centres;
 
     fn graph(text: &str) -> NamedGraph {
         let file = tempfile::NamedTempFile::new().unwrap();

@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use crate::NamedGraph;
 use crate::edge_list::refusal::shown;
 use crate::error::{Fault, Place, Problem};
+use viewcert::at_cameras::{CentreError, Centres};
 use viewcert::geometry::camera::Camera;
 use viewcert::geometry::model::Model as Question;
-use viewcert::here::{CentreError, Centres};
 use viewcert::linalg::rational::Rational;
 use viewcert::wording::counted;
 

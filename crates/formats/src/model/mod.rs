@@ -15,7 +15,7 @@ use std::collections::{HashMap, HashSet};
 use std::fs::File;
 use std::io::{self, BufWriter};
 use std::path::Path;
-use viewcert::here::finished::Dyadic;
+use viewcert::at_cameras::finished::Dyadic;
 use viewcert::linalg::rational::Rational;
 
 use crate::error::{Fault, Place, Problem, ReadError};

@@ -4,7 +4,7 @@ use super::records::{self, Camera};
 use super::{Frame, Image, Model, Part, fields, numbers};
 use crate::quaternion::rotation;
 use std::collections::{BTreeMap, HashMap};
-use viewcert::here::finished::{Dyadic, Finished};
+use viewcert::at_cameras::finished::{Dyadic, Finished};
 
 /// Those with two focal lengths, and those that see more than half a sphere.
 const TWO: [usize; 10] = [1, 4, 5, 6, 7, 10, 11, 13, 15, 16];

@@ -233,8 +233,8 @@ fn annihilators(place: &[Integer; 4]) -> [[Integer; 4]; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::at_cameras::at_cameras;
     use crate::graph::Graph;
-    use crate::here::here;
 
     fn points(places: &[[i64; 3]]) -> Vec<[Rational; 3]> {
         let exact = |x: i64| Rational::from(Integer::from(x));
@@ -244,7 +244,7 @@ mod tests {
     fn found(model: Model, edges: &[(u32, u32)], places: &[[i64; 3]]) -> (usize, Vec<Motion>) {
         let graph = Graph::new(places.len() as u32, edges.iter().copied()).unwrap();
         let centres = Centres::of_points(model, &points(places)).unwrap();
-        let here = here(&graph, &centres, &Watch::default()).unwrap();
+        let here = at_cameras(&graph, &centres, &Watch::default()).unwrap();
         let motions = here.basis_of_motions(&centres, &Watch::default());
         (here.motions(), motions.unwrap().unwrap())
     }

@@ -3,7 +3,7 @@
 use anyhow::{Context, Result, anyhow};
 use std::io::Write;
 use viewcert::Model;
-use viewcert::here::{Centres, Here, HereError, Motion, here, open_focal_lengths};
+use viewcert::at_cameras::{Centres, Here, HereError, Motion, at_cameras, open_focal_lengths};
 use viewcert::watch::Watch;
 use viewcert_formats::{NamedGraph, centre_error};
 use viewcert_report::assumptions::Asked;
@@ -14,7 +14,7 @@ use viewcert_session::Session;
 /// # Errors
 /// A pair without length; work that was stopped.
 pub(super) fn decide(input: &NamedGraph, centres: &Centres, watch: &Watch) -> Result<Here> {
-    here(&input.graph, centres, watch).map_err(|error| match error {
+    at_cameras(&input.graph, centres, watch).map_err(|error| match error {
         HereError::Centre(error) => anyhow!("{}: {}", input.name, centre_error(error, input)),
         other => anyhow!(other).context(input.name.clone()),
     })

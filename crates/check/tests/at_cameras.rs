@@ -4,7 +4,10 @@ use serde_json::{Value, json};
 use viewcert_check::{Failure, HereCertificate, Limits, Strength, VerifiedHere};
 
 fn named(name: &str) -> Value {
-    let path = format!("{}/tests/here/{name}.json", env!("CARGO_MANIFEST_DIR"));
+    let path = format!(
+        "{}/tests/at_cameras/{name}.json",
+        env!("CARGO_MANIFEST_DIR")
+    );
     serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
 

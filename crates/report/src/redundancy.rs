@@ -4,7 +4,7 @@ use crate::shown::{SHOWN, rest};
 use std::io::{self, Write};
 use viewcert::wording::counted;
 use viewcert_advice::Advice;
-use viewcert_advice::noticed::{GroupsOf, Implied, Redundant, Surpluses};
+use viewcert_advice::redundancy::{GroupsOf, Implied, Redundant, Surpluses};
 
 /// Writes what was asked for of it.
 ///

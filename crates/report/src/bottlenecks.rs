@@ -2,7 +2,7 @@
 
 use super::counted;
 use std::io::{self, Write};
-use viewcert_advice::special::{Hinge, Narrow, Pair};
+use viewcert_advice::degenerate::{Hinge, Narrow, Pair};
 
 /// How many places of a kind are shown.
 const SHOWN: usize = 5;

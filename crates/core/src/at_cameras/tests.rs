@@ -341,7 +341,7 @@ fn compare(model: Model, seed: u64, graphs: usize, nodes: u64, with_components: 
             continue;
         };
         let edges = instance.graph.edges();
-        let decided = here(&instance.graph, &instance.centres, &Watch::default()).unwrap();
+        let decided = at_cameras(&instance.graph, &instance.centres, &Watch::default()).unwrap();
         assert_eq!(
             decided.rank.value,
             rank(&instance.matrix(edges)),

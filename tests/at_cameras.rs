@@ -369,7 +369,7 @@ fn ranks_are_those_of_fractions() {
         }
         let (here, certificate) = scene.decided(model);
         let python = python()
-            .arg(root().join("tests/here.py"))
+            .arg(root().join("tests/at_cameras.py"))
             .args([
                 scene.file("pairs.txt"),
                 scene.file("cameras.txt"),
@@ -489,7 +489,7 @@ fn rank_by_fractions(certificate: &Value) -> i64 {
     }
     let scene = Scene::new(&pairs, &cameras);
     let model = certificate["model"].as_str().unwrap();
-    let script = root().join("tests/here.py").display().to_string();
+    let script = root().join("tests/at_cameras.py").display().to_string();
     let words = [
         script,
         scene.file("pairs.txt"),

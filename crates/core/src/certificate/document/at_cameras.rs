@@ -4,11 +4,11 @@ use super::{
     Big, BodyView, ClaimView, GraphView, MergeView, PartView, Rank, SeedView, SplitView, Valued,
     bigs, object, objects, written,
 };
+use crate::at_cameras::{Centres, Class, Here, Piece};
 use crate::certificate::lines;
 use crate::contract::piece::Members;
 use crate::contract::{Body, Seed};
 use crate::graph::{Graph, sha256};
-use crate::here::{Centres, Class, Here, Piece};
 use crate::linalg::integer::Integer;
 use serde::Serialize;
 use std::io::{self, Write};

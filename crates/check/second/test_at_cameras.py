@@ -10,12 +10,12 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 
 import check  # noqa: E402
-import here  # noqa: E402
+import at_cameras as here  # noqa: E402
 import notation  # noqa: E402
 
 
 def named(name):
-    path = os.path.join(HERE, "..", "tests", "here", f"{name}.json")
+    path = os.path.join(HERE, "..", "tests", "at_cameras", f"{name}.json")
     with open(path, encoding="utf-8") as file:
         return json.load(file)
 

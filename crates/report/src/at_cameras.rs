@@ -3,11 +3,11 @@
 use super::{counted, text};
 use serde::Serialize;
 use std::io::{self, Write};
+use viewcert::at_cameras::{Centres, Here, Motion, Special};
 use viewcert::certificate::hex;
 use viewcert::decide::{Component, Verdict};
 use viewcert::geometry::model::Model;
 use viewcert::graph::{Graph, UnionFind};
-use viewcert::here::{Centres, Here, Motion, Special};
 use viewcert_formats::NamedGraph;
 
 /// How many special sets, and cameras of one, the text names.

@@ -8,16 +8,16 @@
 mod centres;
 
 mod core;
+mod degenerate;
 pub mod finished;
 mod focal;
 mod motion;
 mod rank;
-mod special;
 
 pub use centres::{CentreError, Centres};
+pub use degenerate::Special;
 pub use focal::open_focal_lengths;
 pub use motion::Motion;
-pub use special::Special;
 
 use crate::contract::Contraction;
 use crate::contract::piece::{Assembly, Members};
@@ -153,7 +153,7 @@ impl Here {
 /// rigid, and else as many as there are primes.
 ///
 /// ```
-/// use viewcert::here::{Centres, here};
+/// use viewcert::at_cameras::{Centres, at_cameras};
 /// use viewcert::linalg::rational::Rational;
 /// use viewcert::linalg::integer::Integer;
 /// use viewcert::{Graph, Model, watch::Watch};
@@ -162,8 +162,8 @@ impl Here {
 /// let graph = Graph::new(3, [(0, 1), (0, 2), (1, 2)])?;
 /// let point = |x: [i64; 3]| x.map(|x| Rational::from(Integer::from(x)));
 /// let at = |places: [[i64; 3]; 3]| Centres::of_points(Model::Projective, &places.map(point));
-/// let general = here(&graph, &at([[0, 0, 0], [1, 0, 0], [0, 1, 0]])?, &Watch::default())?;
-/// let line = here(&graph, &at([[0, 0, 0], [1, 0, 0], [3, 0, 0]])?, &Watch::default())?;
+/// let general = at_cameras(&graph, &at([[0, 0, 0], [1, 0, 0], [0, 1, 0]])?, &Watch::default())?;
+/// let line = at_cameras(&graph, &at([[0, 0, 0], [1, 0, 0], [3, 0, 0]])?, &Watch::default())?;
 /// assert!(general.is_determined() && !line.is_determined());
 /// assert_eq!((line.rank.value, line.required), (14, 18));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -171,7 +171,7 @@ impl Here {
 ///
 /// # Errors
 /// Cameras that do not fit the graph or the model, edges whose centres coincide; work that was stopped.
-pub fn here(graph: &Graph, centres: &Centres, watch: &Watch) -> Result<Here, HereError> {
+pub fn at_cameras(graph: &Graph, centres: &Centres, watch: &Watch) -> Result<Here, HereError> {
     if centres.len() != graph.nodes() {
         return Err(HereError::Count {
             nodes: graph.nodes(),
@@ -222,7 +222,7 @@ pub fn here(graph: &Graph, centres: &Centres, watch: &Watch) -> Result<Here, Her
             value: components,
             strength: Strength::all(strengths(&pieces)),
         },
-        special: special::sets(centres),
+        special: degenerate::sets(centres),
         is_planar: centres.rank(&nodes) < 4,
         sha256: setting.hashes[1],
         contraction,

@@ -6,10 +6,10 @@
 //! generic positions; those of photographs that were taken from one place are not. The angles are
 //! estimates of the database, and no verdict depends on them.
 
+use crate::bottlenecks::{self, Cut, Hinges};
 use crate::frames::Images;
 use crate::mapper::Geometry;
 use crate::named::Names;
-use crate::narrow::{self, Cut, Hinges};
 use anyhow::Result;
 use serde::Serialize;
 use std::cmp::Reverse;
@@ -128,7 +128,7 @@ pub fn narrow(
     };
     let mut found = Narrow::default();
     let known = tracks.map_or_else(Images::default, |(tracks, _)| Images::new(pairs, tracks));
-    for cut in narrow::cuts(graph, &known.frames).iter().take(MOST) {
+    for cut in bottlenecks::cuts(graph, &known.frames).iter().take(MOST) {
         found.few.push(look.few(cut)?);
     }
     let Some((tracks, verdict)) = tracks else {
@@ -141,7 +141,7 @@ pub fn narrow(
     if !known.frames.is_empty() {
         return Ok(found);
     }
-    let hinges = narrow::hinges(graph);
+    let hinges = bottlenecks::hinges(graph);
     let alone = hinges
         .iter()
         .filter(|hinges| hold_alone(&tracks.graph, graph.nodes(), hinges));

@@ -10,14 +10,14 @@ use pyo3::types::PyBytes;
 use std::path::PathBuf;
 use std::sync::Arc;
 use viewcert::Model;
-use viewcert::here::{Centres, Here, HereError, Special, here, open_focal_lengths};
+use viewcert::at_cameras::{Centres, Here, HereError, Special, at_cameras, open_focal_lengths};
 use viewcert::linalg::rational::Rational;
 use viewcert_advice::Advice;
 use viewcert_check::HereCertificate;
 use viewcert_formats::{NamedGraph, cameras_beside, centre_error};
 use viewcert_report::Report;
 use viewcert_report::assumptions::Scope;
-use viewcert_report::here::HereReport;
+use viewcert_report::at_cameras::HereReport;
 
 /// The centres of cameras, one a node of a graph.
 #[pyclass(frozen, module = "viewcert._native")]
@@ -151,7 +151,7 @@ impl AtCameras {
         let (centres, job) = (Arc::clone(&cameras.centres), Job::new(py)?);
         let (at, stop) = (Arc::clone(&centres), job.watch());
         let graph = Arc::clone(&input);
-        let asked = move || here(&graph.graph, &at, &stop);
+        let asked = move || at_cameras(&graph.graph, &at, &stop);
         let found = job.run(py, asked)?;
         let here = found.map_err(|error| match error {
             HereError::Centre(error) => {
