@@ -7,7 +7,9 @@ use clap::Args;
 use std::path::PathBuf;
 use viewcert::decide::{Options, Question, Value, Verdict, decide};
 use viewcert::geometry::model::Model;
+use viewcert::watch::Watch;
 use viewcert_formats::NamedGraph;
+use viewcert_report::assumptions::{Asked, Scope};
 use viewcert_report::models as report;
 use viewcert_session::exit::{GOOD, NOT};
 use viewcert_session::{Session, outputs};
@@ -44,27 +46,30 @@ pub(super) fn run(session: &Session, arguments: &ModelsArguments) -> Result<u8> 
     let each = |out: &mut _, input: &NamedGraph, _| {
         let (input, known) = given::read(given, input, arguments.given.is_one_frame())?;
         let input = &*input;
-        let decided = |model: Model| -> Result<Verdict> {
+        let decided = |model: Model| -> Result<(Verdict, Scope)> {
             let question = Question {
                 known: known.clone(),
                 ..model.into()
             };
             let question = question.checked().context(given::OPTION)?;
             let options = Options::default().question(question).seed(arguments.seed);
-            let verdict =
-                session.watched(|watch| decide(&input.graph, &options.watch(watch.clone())));
-            verdict.with_context(|| format!("{}, {model} model", input.name))
+            let decide = |watch: &Watch| -> Result<(Verdict, Scope)> {
+                let verdict = decide(&input.graph, &options.watch(watch.clone()))?;
+                let scope = Scope::new(input, &verdict, Asked::default(), watch)?;
+                Ok((verdict, scope))
+            };
+            let found = session.watched(decide);
+            found.with_context(|| format!("{}, {model} model", input.name))
         };
         let verdicts = report::ORDER.into_iter().map(decided);
-        let verdicts: Vec<Verdict> = verdicts.collect::<Result<_>>()?;
-        let verdicts: Vec<&Verdict> = verdicts.iter().collect();
+        let verdicts: Vec<(Verdict, Scope)> = verdicts.collect::<Result<_>>()?;
         let changes = report::all_changes(&verdicts);
         if arguments.json {
             report::json(out, input, &verdicts, &changes)?;
         } else {
             report::text(out, input, &verdicts, &changes)?;
         }
-        let good = |verdict: &&Verdict| verdict.value != Value::NotFiniteSolvable;
+        let good = |(verdict, _): &(Verdict, Scope)| verdict.value != Value::NotFiniteSolvable;
         Ok(if verdicts.iter().all(good) { GOOD } else { NOT })
     };
     let inputs = (&*arguments.graphs, arguments.json);

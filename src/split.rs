@@ -107,6 +107,12 @@ fn taken_apart(session: &Session, arguments: &SplitArguments) -> Result<u8> {
             counted(short, "point")
         ));
     }
+    if posed.unplaced > 0 {
+        notes.push(format!(
+            "the rig does not place the sensors of {}: each moves by itself",
+            counted(posed.unplaced, "image")
+        ));
+    }
     let report = SplitReport {
         model: path.display().to_string(),
         notes,

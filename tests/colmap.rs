@@ -1648,6 +1648,30 @@ fn pose_priors_are_positions_that_are_asked_for() {
     ];
     assert_eq!(crate::common::first_checker(&arguments).code, 0);
     assert_eq!(crate::common::second_checker(&arguments).code, 0);
+    // What a position alone places is in no list.
+    made.execute("insert into images values (5, 'roof')");
+    made.execute(
+        "insert into pose_priors select 5, 5, 1, 0, position, position_covariance, null, 0 from pose_priors
+         where pose_prior_id = 4",
+    );
+    let lists = file("lists");
+    assert_eq!(done(&["export", database, text(&lists)]), 1);
+    let images = fs::read_to_string(lists.join("images.tsv")).unwrap();
+    assert_eq!(
+        images
+            .lines()
+            .filter(|line| line.starts_with("roof\t"))
+            .count(),
+        1
+    );
+    let parts = fs::read_dir(lists.join("components")).unwrap();
+    let listed =
+        parts.map(|part| fs::read_to_string(part.unwrap().path().join("images.txt")).unwrap());
+    let mut listed: Vec<String> = listed
+        .flat_map(|list| list.lines().map(str::to_owned).collect::<Vec<_>>())
+        .collect();
+    listed.sort();
+    assert_eq!(listed, ["l1", "l2", "r1", "r2"]);
     // Three positions leave the size of the right part open.
     made.execute("delete from pose_priors where corr_data_id = 4");
     let line = json_of(&path, &given);

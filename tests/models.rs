@@ -220,7 +220,7 @@ fn all_models_side_by_side() {
     for line in [
         "  affine      not-finite-solvable, rank 16 of 20, 4 components (proved)",
         "  projective  not-finite-solvable, rank 28 of 29, 4 components (proved)",
-        "  calibrated  solvable, rank 8 of 8, 1 component (proved)",
+        "  calibrated  solvable if the centres do not all lie in one plane, rank 8 of 8, 1 component (proved)",
         "calibrated component 1 (4 cameras) joins the projective components 1, 2, 3, 4 at 0, 1, 2, 3",
     ] {
         assert!(run.out.contains(line), "{line}\n{}", run.out);
@@ -238,6 +238,18 @@ fn all_models_side_by_side() {
     assert_eq!(changes[0]["joins"], json!([1, 2, 3, 4]));
     assert_eq!(changes[0]["at"], json!(["0", "1", "2", "3"]));
     assert_eq!(verify_with(cycle(3).as_bytes(), &["models", "-"]).code, 0);
+    // The condition that a single verdict states, in the promise itself: 10 of 11 in a plane.
+    let graph = edge_list(bipartite(2, 3));
+    let condition = "if the centres do not all lie in one plane";
+    let run = verify_with(graph.as_bytes(), &["models", "-"]);
+    let line = format!("  calibrated  solvable {condition}, rank 11 of 11, 1 component (proved)");
+    assert!(run.out.contains(&line), "{}", run.out);
+    let run = verify_with(graph.as_bytes(), &["models", "-", "--json"]);
+    let conditions = [0, 1, 2].map(|k| run.json()[0]["models"][k]["condition"].clone());
+    assert_eq!(
+        conditions,
+        [json!(null), json!(condition), json!(condition)]
+    );
 }
 
 /// The induced subgraph on the largest biconnected component.

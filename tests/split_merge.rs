@@ -334,6 +334,69 @@ fn two_images_are_a_model() {
     );
 }
 
+/// Left and right images see no point together. Their rig holds them, if it places the right sensor and frames turn.
+#[test]
+fn a_rig_holds_what_it_places() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let tracks = [vec![vec![0, 1, 2, 3]; 10], vec![vec![4, 5, 6, 7]; 10]].concat();
+    let split = |pose: &str, turn: [i32; 4], more: &[&str]| {
+        let path = at.join("model");
+        model(&path, 8, &tracks);
+        let [mut frames, mut images] = [String::new(), String::new()];
+        let features = fs::read_to_string(path.join("images.txt")).unwrap();
+        let features: Vec<&str> = features.lines().skip(2).step_by(2).collect();
+        for k in 0..8 {
+            let (frame, right) = (k % 4, k / 4);
+            let translation: Vec<f64> = place(frame)
+                .split(' ')
+                .map(|x| x.parse().unwrap())
+                .collect();
+            let [x, y, z] = [
+                translation[0] - right as f64,
+                translation[1],
+                translation[2],
+            ];
+            let q = format!("4 {} 1 0", turn[frame]);
+            images += &format!(
+                "{} {q} {x} {y} {z} {} {k}.jpg\n{}\n",
+                k + 1,
+                right + 1,
+                features[k]
+            );
+            if right == 0 {
+                let data = format!("2 CAMERA 1 {} CAMERA 2 {}", k + 1, k + 5);
+                frames += &format!("{} 1 {q} {} {data}\n", k + 1, place(frame));
+            }
+        }
+        let camera = |id: u32| format!("{id} PINHOLE 900 900 800 800 400 400\n");
+        for (name, text) in [
+            ("cameras.txt", camera(1) + &camera(2)),
+            ("images.txt", images),
+            ("frames.txt", frames),
+            ("rigs.txt", format!("1 2 CAMERA 1 CAMERA 2 {pose}\n")),
+        ] {
+            fs::write(path.join(name), text).unwrap();
+        }
+        let found = run(at, "split", &[&["model", "out", "--json"], more].concat());
+        let line = keeps_to("split", &found, &["freedom"]).remove(0);
+        (found.code, line)
+    };
+    let (known, turns) = ("1 1 0 0 0 -1 0 0", [0, 1, 2, 3]);
+    let (code, line) = split(known, turns, &[]);
+    assert_eq!((code, &line["freedom"]), (0, &json!(0)));
+    // Frames that do not turn leave the scale.
+    assert_eq!(split(known, [1; 4], &[]).1["freedom"], 1);
+    for (pose, more) in [("0", &[][..]), (known, &["--no-rigs"])] {
+        let (code, line) = split(pose, turns, more);
+        assert_eq!((code, &line["freedom"]), (1, &json!(7)), "{line}");
+        assert_eq!(line["split"]["parts"].as_array().unwrap().len(), 2);
+        let note = json!(["the rig does not place the sensors of 4 images: each moves by itself"]);
+        let notes = if pose == "0" { note } else { json!([]) };
+        assert_eq!(line["notes"], notes);
+    }
+}
+
 /// Several features of one image at a point are one view, as they were to the mapper.
 #[test]
 fn a_point_may_have_several_features_in_an_image() {

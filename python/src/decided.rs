@@ -18,10 +18,11 @@ use viewcert::{Arithmetic, CountSolutions, Known, Model, Options, Prime, Verdict
 use viewcert_advice::priors::Priors;
 use viewcert_advice::redundancy::UnknownLoss;
 use viewcert_advice::{Request, Shapes, Weak};
-use viewcert_formats::{NamedGraph, NamedParts, with_rigs};
+use viewcert_formats::{NamedGraph, NamedParts, given, with_rigs};
 use viewcert_report::Report;
 use viewcert_report::assumptions::{self, BaseLines, Scope};
 use viewcert_report::intrinsics::IntrinsicsLine;
+use viewcert_report::own_frame;
 use viewcert_report::priors::PriorsLine;
 use viewcert_report::scene::Scene;
 use viewcert_session::Outputs;
@@ -126,6 +127,12 @@ pub(crate) fn known_displacements(
 
 /// Each set as a star: displacements add up.
 fn without_vectors(nodes: u32, groups: &[Vec<u32>]) -> PyResult<Displacements> {
+    let is_single = |group: &Vec<u32>| group.iter().all(|v| *v == group[0]);
+    if groups.iter().any(is_single) {
+        return Err(InputError::new_err(
+            "displacements: a set has fewer than two nodes, and a displacement is between two; leave it out",
+        ));
+    }
     let stars = groups.iter().filter_map(|group| group.split_first());
     let stars = stars.flat_map(|(&first, others)| others.iter().map(move |&other| (first, other)));
     let known = Displacements::new(nodes, stars.filter(|(a, b)| a != b));
@@ -261,6 +268,11 @@ pub(crate) fn decide(
     let groups = displacements.unwrap_or_default();
     let displacements = known_displacements(nodes, &groups, vectors.as_deref())?;
     let known = match (displacements.is_empty(), one_frame) {
+        (true, _) if known.parts.is_empty() => {
+            let found = given(None, &input, false).map_err(|error| wrong(&error))?;
+            Arc::make_mut(&mut input).notes.extend(found.notes);
+            found.known
+        }
         (true, _) => Known::Parts(known.parts),
         (false, true) => Known::Displacements(displacements),
         (false, false) => Known::OwnFrame {
@@ -323,7 +335,7 @@ impl Decided {
     /// The answer.
     #[getter]
     fn value(&self) -> &'static str {
-        self.shown().answer_name()
+        own_frame::claim(&self.input, self.shown()).map_or("open", |claim| claim.value.name())
     }
 
     /// The answer without displacements in a frame of their own.
@@ -363,11 +375,11 @@ impl Decided {
     fn strengths(&self) -> [(&'static str, Option<i64>); 3] {
         let verdict = self.shown();
         [
-            verdict.value_claim().strength,
-            verdict.rank_claim().strength,
-            verdict.components_claim().strength,
+            own_frame::claim(&self.input, verdict).map(|claim| claim.strength),
+            Some(verdict.rank_claim().strength),
+            Some(verdict.components_claim().strength),
         ]
-        .map(|strength| (strength.name(), strength.error_log2()))
+        .map(|strength| strength.map_or(("none", None), |claim| (claim.name(), claim.error_log2())))
     }
 
     /// The sets of nodes whose displacements it takes for given.

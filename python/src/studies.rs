@@ -12,11 +12,15 @@ use pyo3::prelude::*;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
+use viewcert::Verdict;
 use viewcert::linalg::rational::Rational;
+use viewcert::watch::Watch;
 use viewcert_audit::at_cameras::{SigmaError, read_table, ruled, sigma};
 use viewcert_audit::enclosure::Matrix;
 use viewcert_audit::table::{BadRow, Row};
 use viewcert_audit::{Beside, Options as FloatOptions, claims};
+use viewcert_formats::NamedGraph;
+use viewcert_report::assumptions::{Asked, Scope};
 use viewcert_report::audit::{AtCameras as AtCamerasReport, Audit, Ruled};
 use viewcert_report::models as model_report;
 
@@ -43,7 +47,12 @@ pub(crate) fn models(py: Python<'_>, decided: Vec<Py<Decided>>) -> PyResult<Said
         return Err(InputError::new_err("models go from affine to calibrated"));
     }
     let found = work::run(py, move || {
-        let verdicts: Vec<_> = answers.iter().map(|(_, verdict)| &**verdict).collect();
+        let scoped = |(input, verdict): &(Arc<NamedGraph>, Arc<Verdict>)| -> anyhow::Result<_> {
+            let scope = Scope::new(input, verdict, Asked::default(), &Watch::default())?;
+            Ok((Verdict::clone(verdict), scope))
+        };
+        let verdicts: anyhow::Result<Vec<_>> = answers.iter().map(scoped).collect();
+        let verdicts = verdicts?;
         let (input, changes) = (&*answers[0].0, model_report::all_changes(&verdicts));
         said(
             |out| model_report::json(out, input, &verdicts, &changes),

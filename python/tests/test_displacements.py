@@ -80,6 +80,10 @@ def test_what_does_not_go_together() -> None:
             viewcert.verify(PAIRS, displacements=RIGS, **options)
     with pytest.raises(viewcert.InputError, match="displacements: 'x' is no node"):
         viewcert.verify(PAIRS, model="calibrated", displacements=[("a", "x")])
+    # As a line `displacement a a` of a file, which the program refuses.
+    for rigs in ([("a",)], [("a", "b"), ("c", "c")], [()]):
+        with pytest.raises(viewcert.InputError, match="a set has fewer than two nodes"):
+            viewcert.verify(PAIRS, model="calibrated", displacements=rigs)
 
 
 def test_the_program_says_the_same(program: Program, tmp_path: pathlib.Path) -> None:

@@ -130,6 +130,8 @@ def test_what_a_matrix_takes() -> None:
         viewcert.rigidity_matrix(triangle, [(0, 0, 0), (0, 0, 0), (0, 1, 0)], "N")
     with pytest.raises(viewcert.InputError, match="there is none for 2"):
         viewcert.rigidity_matrix(triangle, {0: (0, 0, 0), 1: (1, 0, 0)}, "N")
+    with pytest.raises(viewcert.InputError, match="cameras: 7 is no node of the graph"):
+        viewcert.at_cameras(triangle, {**dict(enumerate(places)), 7: (1, 1, 1)})
     flat = [np.zeros((3, 4), dtype=int)] * 3
     with pytest.raises(viewcert.InputError, match="rank below 3"):
         viewcert.rigidity_matrix(triangle, flat)

@@ -1,7 +1,7 @@
 //! Many graphs: a row each and a summary, in the form of the paper's Table 3.
 
 use super::text::{seconds, strength};
-use super::{Report, counted};
+use super::{Report, counted, own_frame};
 use serde_json::json;
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -104,9 +104,10 @@ impl Table {
     pub fn row(&mut self, out: &mut impl Write, report: &Report) -> io::Result<()> {
         let (graph, verdict) = (&report.input.graph, report.verdict);
         let (nodes, edges) = (graph.nodes(), graph.edges().len());
-        let words = verdict.answer_name();
+        let claim = own_frame::claim(report.input, verdict);
+        let words = claim.map_or("open", |claim| claim.value.name());
         let components = verdict.components.len();
-        let strength = strength(verdict.value_claim().strength);
+        let strength = claim.map_or("none".to_owned(), |claim| strength(claim.strength));
         let percent = density(nodes, edges);
         let solutions = solutions(verdict);
         let name = &*printable(&report.input.name);
@@ -163,7 +164,7 @@ impl Table {
         self.components += components;
         self.time += report.time;
         for (count, known) in self.counts.iter_mut().zip(Value::ALL) {
-            *count += usize::from(verdict.answer() == Some(known));
+            *count += usize::from(claim.is_some_and(|claim| claim.value == known));
         }
         Ok(())
     }

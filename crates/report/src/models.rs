@@ -33,9 +33,10 @@ pub struct Change {
 pub const ORDER: [Model; 3] = [Model::Affine, Model::Projective, Model::Calibrated];
 
 /// What changes from each verdict to the next; they are in this order of models.
-pub fn all_changes(verdicts: &[&Verdict]) -> Vec<Change> {
+pub fn all_changes(verdicts: &[(Verdict, Scope)]) -> Vec<Change> {
     let next = verdicts.windows(2);
-    next.flat_map(|pair| changes(pair[0], pair[1])).collect()
+    next.flat_map(|pair| changes(&pair[0].0, &pair[1].0))
+        .collect()
 }
 
 /// What changes from one model to one that determines at least as much.
@@ -95,16 +96,20 @@ fn first<T: ToString>(items: impl ExactSizeIterator<Item = T>) -> String {
 pub fn text(
     out: &mut impl Write,
     input: &NamedGraph,
-    verdicts: &[&Verdict],
+    verdicts: &[(Verdict, Scope)],
     changes: &[Change],
 ) -> io::Result<()> {
     writeln!(out, "{}", printable(&input.name))?;
     writeln!(out, "  read as     {}", input.read)?;
-    writeln!(out, "  graph       {}", size_with_parts(input, verdicts[0]))?;
+    writeln!(
+        out,
+        "  graph       {}",
+        size_with_parts(input, &verdicts[0].0)
+    )?;
     for note in &input.notes {
         writeln!(out, "  note        {note}")?;
     }
-    for verdict in verdicts {
+    for (verdict, scope) in verdicts {
         let (rank, required) = (verdict.rank, verdict.required);
         let components = super::counted(verdict.components.len(), "component");
         let answer = verdict.value.name();
@@ -114,9 +119,11 @@ pub fn text(
             verdict.components_claim().strength,
         ];
         let strength = text::strength(Strength::all(claims));
+        let condition = text::condition(input, verdict, scope);
+        let condition = condition.map_or_else(String::new, |words| format!(" {words}"));
         writeln!(
             out,
-            "  {:<12}{answer}, rank {rank} of {required}, {components} ({strength})",
+            "  {:<12}{answer}{condition}, rank {rank} of {required}, {components} ({strength})",
             verdict.model.name()
         )?;
     }
@@ -158,10 +165,10 @@ struct ModelLine {
 }
 
 impl ModelLine {
-    fn new(input: &NamedGraph, verdict: &Verdict) -> Self {
+    fn new(input: &NamedGraph, verdict: &Verdict, scope: &Scope) -> Self {
         Self {
             model: verdict.model.name(),
-            answer: AnswerLine::new(input, verdict, &Scope::default(), false),
+            answer: AnswerLine::new(input, verdict, scope, false),
         }
     }
 }
@@ -183,7 +190,7 @@ struct ChangeLine {
 pub fn json(
     out: &mut impl Write,
     input: &NamedGraph,
-    verdicts: &[&Verdict],
+    verdicts: &[(Verdict, Scope)],
     changes: &[Change],
 ) -> io::Result<()> {
     let changes = changes.iter().map(|change| ChangeLine {
@@ -199,15 +206,15 @@ pub fn json(
             .collect(),
     });
     let line = Line {
-        graph: GraphLine::new(input, verdicts[0]),
-        parts: parts(verdicts[0]),
+        graph: GraphLine::new(input, &verdicts[0].0),
+        parts: parts(&verdicts[0].0),
         read: ReadLine::from(&input.read),
         notes: &input.notes,
         models: verdicts
             .iter()
-            .map(|verdict| ModelLine::new(input, verdict))
+            .map(|(verdict, scope)| ModelLine::new(input, verdict, scope))
             .collect(),
         changes: changes.collect(),
     };
-    write_line(out, "models", Some(verdicts[0].seed), &line)
+    write_line(out, "models", Some(verdicts[0].0.seed), &line)
 }

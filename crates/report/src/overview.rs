@@ -122,10 +122,10 @@ impl Wanted {
         }
     }
 
-    /// "15 images", "15 of 16 images".
+    /// "all 15 images", "15 of 16 images".
     fn words(&self) -> String {
         match self.count == self.of {
-            true => counted(self.count, "image"),
+            true => format!("all {}", counted(self.count, "image")),
             false => format!("{} of {}", self.count, counted(self.of, "image")),
         }
     }
@@ -423,7 +423,7 @@ impl Overview<'_> {
                 "of pairwise directions: there are no pairs".into()
             }
             Some(parts) if parts.whole => {
-                format!("of pairwise directions: the pairs determine all {all} {of_pairs}")
+                format!("of pairwise directions: the pairs determine {all} {of_pairs}")
             }
             Some(parts) => format!(
                 "of pairwise directions: {of_pairs}, the pairs determine {}, and not how these lie against \
@@ -439,7 +439,7 @@ impl Overview<'_> {
                 "starts a new model where it cannot go on; pairs alone do not tell where".to_owned(),
             ],
             Some(parts) if parts.whole => [
-                format!("the tracks determine all {all} at generic places {condition}"),
+                format!("the tracks determine {all} at generic places {condition}"),
                 "starts a new model where it cannot go on; tracks that determine everything are necessary \
                  for one model, not sufficient"
                     .to_owned(),

@@ -3,7 +3,7 @@
 
 use serde::Serialize;
 use viewcert::certificate::hex;
-use viewcert::decide::{OwnFrame, TurningPart, Value, Verdict};
+use viewcert::decide::{Claim, OwnFrame, Strength, TurningPart, Value, Verdict};
 use viewcert::wording::counted;
 use viewcert_formats::NamedGraph;
 
@@ -31,8 +31,9 @@ pub struct OwnFrameLine {
     /// How many cameras have a position and nothing else: no pair, no rig.
     only_given: usize,
     parts: Vec<PartLine>,
+    /// None is open.
     #[serde(skip)]
-    answer: &'static str,
+    answer: Option<Value>,
     #[serde(skip)]
     because: String,
 }
@@ -64,15 +65,6 @@ impl OwnFrameLine {
             turns: part.turns,
             rotation_fixed: part.is_fixed,
         };
-        // Base lines that are not known, which are the same in all frames, may tie what moves here.
-        let is_tied = input
-            .frames
-            .as_ref()
-            .is_some_and(|frames| frames.rig_frames().has_unknown());
-        let answer = match found.value() {
-            Some(Value::NotFiniteSolvable) if is_tied => "open",
-            _ => found.name(),
-        };
         Some(Self {
             groups: given.groups().len(),
             cameras: given.nodes(),
@@ -84,19 +76,20 @@ impl OwnFrameLine {
             determined: cameras(&found.placed),
             only_given,
             parts: found.parts.iter().map(part).collect(),
-            answer,
-            because: because(input, found, only_given, is_tied),
+            answer: value(input, found),
+            because: because(input, found, only_given),
         })
     }
 
     /// The answer in a word.
     pub(crate) fn name(&self) -> &'static str {
-        self.answer
+        self.answer.map_or("open", Value::name)
     }
 
     /// Whether finitely many solutions are left.
     pub(crate) fn is_good(&self) -> bool {
-        matches!(self.answer, "solvable" | "finite-solvable")
+        self.answer
+            .is_some_and(|value| value != Value::NotFiniteSolvable)
     }
 
     /// Why.
@@ -147,17 +140,17 @@ impl OwnFrameLine {
         };
         let condition = condition.map_or_else(String::new, |words| format!(" {words}"));
         match self.answer {
-            "solvable" => match input.cameras {
+            Some(Value::Solvable) => match input.cameras {
                 None => format!("solvable: the cameras are unique{condition} (proved)"),
                 Some(_) => format!(
                     "solvable: the positions of all cameras and points are unique{condition} (proved)"
                 ),
             },
-            "finite-solvable" => {
+            Some(Value::FiniteSolvable) => {
                 format!("finite-solvable: finitely many {sets}{condition} (proved)")
             }
-            "open" => "open: neither unique nor free is proved".to_owned(),
-            name => format!("{name}: infinitely many {sets} (proved)"),
+            None => "open: neither unique nor free is proved".to_owned(),
+            Some(value) => format!("{}: infinitely many {sets} (proved)", value.name()),
         }
     }
 
@@ -182,8 +175,27 @@ impl OwnFrameLine {
     }
 }
 
-fn because(input: &NamedGraph, found: &OwnFrame, only_given: usize, is_tied: bool) -> String {
-    if is_tied && found.value() == Some(Value::NotFiniteSolvable) {
+/// The answer of a verdict with all that is given; nothing if it is open.
+pub fn claim(input: &NamedGraph, verdict: &Verdict) -> Option<Claim<Value>> {
+    let Some(found) = &verdict.own_frame else {
+        return Some(verdict.value_claim());
+    };
+    let strength = Strength::Proof;
+    value(input, found).map(|value| Claim { value, strength })
+}
+
+fn value(input: &NamedGraph, found: &OwnFrame) -> Option<Value> {
+    // Base lines that are not known, which are the same in all frames, may tie what moves here.
+    let is_tied = || {
+        let frames = input.frames.as_ref();
+        frames.is_some_and(|frames| frames.rig_frames().has_unknown())
+    };
+    let value = found.value();
+    value.filter(|&value| value != Value::NotFiniteSolvable || !is_tied())
+}
+
+fn because(input: &NamedGraph, found: &OwnFrame, only_given: usize) -> String {
+    if found.value().is_some() && value(input, found).is_none() {
         return "base lines that are not known are left out of account beside what is given"
             .to_owned();
     }

@@ -204,7 +204,9 @@ fn reason(input: &NamedGraph, verdict: &Verdict) -> String {
         return match verdict.contraction.bodies.len() {
             1 => format!("the displacements of all {nodes} cameras are known"),
             _ => {
-                format!("known displacements and pairs merge into one body of all {nodes} cameras")
+                format!(
+                    "known displacements and pairs merge into one body of all {nodes} {members}"
+                )
             }
         };
     }
@@ -244,7 +246,10 @@ fn reason(input: &NamedGraph, verdict: &Verdict) -> String {
     let covered: usize = verdict.pieces.iter().map(|piece| piece.upper).sum();
     match verdict.value_claim().strength {
         Strength::ErrorBound(_) => "the rank falls short at random cameras".into(),
-        Strength::Proof if parts == 0 => "there are no pairs".into(),
+        Strength::Proof if parts == 0 => match input.cameras {
+            None => "there are no pairs".into(),
+            Some(_) => "no track counts".into(),
+        },
         Strength::Proof if parts > 1 => {
             format!("{parts} parts hang together in {single}, or not at all")
         }

@@ -561,6 +561,9 @@ def texts_of(graph: Graph[Any], cameras: Cameras, model: str) -> Tuple[List[str]
         if absent:
             more = f" and {len(absent) - 1} more" if len(absent) > 1 else ""
             raise InputError(f"cameras: there is none for {absent[0]!r}{more}, which the graph has")
+        strange = [node for node in cameras if node not in graph]
+        if strange:
+            raise InputError(f"cameras: {strange[0]!r} is no node of the graph; leave it out")
         each = [cameras[node] for node in nodes]
     else:
         each = listed("cameras", cameras)

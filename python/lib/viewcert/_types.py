@@ -19,8 +19,8 @@ Decided = Literal["projective", "calibrated", "affine"]
 #: The answer.
 Value = Literal["solvable", "finite-solvable", "not-finite-solvable", "open"]
 
-#: How strong an answer is.
-Strength = Literal["proof", "error-bound"]
+#: How strong an answer is; one that is open has no strength.
+Strength = Literal["proof", "error-bound", "none"]
 
 #: How thoroughly solutions are counted.
 Counting = Literal["quick", "full"]

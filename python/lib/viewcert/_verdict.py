@@ -334,12 +334,14 @@ class Verdict(Generic[N]):
     @property
     def value(self) -> Value:
         """The answer: ``'solvable'`` (the cameras are unique), ``'finite-solvable'`` (finitely
-        many sets of cameras) or ``'not-finite-solvable'`` (infinitely many)."""
+        many sets of cameras) or ``'not-finite-solvable'`` (infinitely many); with displacements in a frame
+        of their own also ``'open'``."""
         return self._native.value
 
     @property
     def strength(self) -> Strength:
-        """``'proof'``, or ``'error-bound'``: wrong with probability at most ``2**error_log2``."""
+        """``'proof'``, or ``'error-bound'``: wrong with probability at most ``2**error_log2``; ``'none'`` of an
+        answer that is open."""
         return self._native.strengths()[0][0]
 
     @property

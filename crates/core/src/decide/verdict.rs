@@ -159,11 +159,6 @@ impl Verdict {
         }
     }
 
-    /// The same in a word.
-    pub fn answer_name(&self) -> &'static str {
-        self.answer().map_or("open", Value::name)
-    }
-
     /// Whether there are finitely many solutions with all that is given.
     pub fn is_good(&self) -> bool {
         self.answer()

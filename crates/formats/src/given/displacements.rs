@@ -24,7 +24,6 @@ pub(super) struct Lines {
     pairs: Vec<Line<(u32, u32)>>,
     /// Cameras with a known position.
     positions: Vec<Line<u32>>,
-    with_itself: usize,
 }
 
 /// What a line says of a camera or a pair.
@@ -55,12 +54,7 @@ impl Lines {
         let [first, second] = [cameras.named(first, line)?, cameras.named(second, line)?];
         let vector = self.vector(line, rest)?;
         if first == second {
-            let zero = Some([Coordinate::default(); 3]);
-            if vector.is_some() && vector != zero {
-                return Err(contradiction());
-            }
-            self.with_itself += 1;
-            return Ok(());
+            return Err(Problem::new("the line names one camera twice", LINES));
         }
         self.pairs.push(Line {
             number,
@@ -147,12 +141,6 @@ impl Lines {
             "line",
             "says again what another one says, and counts once",
             "say again what others say, and count once",
-        );
-        note(
-            self.with_itself,
-            "pair",
-            "is one of a camera with itself, which says nothing",
-            "are of cameras with themselves, which says nothing",
         );
         note(
             usize::from(positions.len() == 1),

@@ -98,14 +98,13 @@ fn positions_are_in_one_frame() {
 
 #[test]
 fn of_displacements_what_counts_once_or_says_nothing_is_said() {
-    let pairs = lines("displacement", &["1 0", "0 1", "1 0", "3 3", "0 2", "1 3"]);
+    let pairs = lines("displacement", &["1 0", "0 1", "1 0", "0 2", "1 3"]);
     let (groups, _, notes) = displacements(&(pairs + "position 4\n"), &numbers());
     assert_eq!(groups, [vec![0, 1, 2, 3]]);
     assert_eq!(
         notes,
         [
             "2 lines say again what others say, and count once",
-            "1 pair is one of a camera with itself, which says nothing",
             "1 position is known, which says nothing about a single camera",
             "2 known displacements are of no pairs of the graph: their directions are known with them",
         ]
@@ -166,6 +165,10 @@ fn what_is_wrong_is_said_with_its_line() {
         (
             "displacement a".into(),
             ":1: the line does not name two cameras; ",
+        ),
+        (
+            displaced(&["d e", "a a"]),
+            ":2: the line names one camera twice; ",
         ),
         ("position".into(), ":1: the line names no camera; "),
         (

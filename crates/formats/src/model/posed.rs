@@ -37,6 +37,8 @@ pub struct Posed {
     pub tracks: Vec<Vec<u32>>,
     /// Images that move as one, by their frame.
     pub frames: Vec<Vec<u32>>,
+    /// Images of sensors that their rig does not place: these move by themselves.
+    pub unplaced: usize,
     /// The lens of each image.
     pub lenses: Vec<Lens>,
 }
@@ -136,6 +138,7 @@ impl Model {
                         continue;
                     };
                     let Some(Some(sensor)) = rig.sensors.get(&datum.sensor.into()) else {
+                        posed.unplaced += 1;
                         continue;
                     };
                     let ([x, y, z, w], [a, b, c]) = (sensor.rotation, sensor.translation);
