@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use viewcert::watch::Watch;
 use viewcert_formats::colmap::{Database, Pipeline};
 use viewcert_formats::{
-    Columns, Decimal, Format, ListOptions, NamedGraph, ReadError, ReadOptions, TrackOptions,
+    Columns, Decimal, Format, ListOptions, Model, NamedGraph, ReadError, ReadOptions, TrackOptions,
     read_graphs,
 };
 use viewcert_report::counted;
@@ -282,6 +282,22 @@ pub(super) fn recorded(json: bool, input: &Path, done: Result<u8>) -> Result<u8>
         out.flush().context("standard output")?;
     }
     done
+}
+
+/// Reads a model of COLMAP.
+///
+/// # Errors
+/// A path that is no folder; what is wrong in it.
+pub(super) fn read_model(session: &Session, path: &Path) -> Result<Model> {
+    ensure!(
+        path.is_dir(),
+        "{}: this is no folder; name the folder that holds cameras, images and points3D",
+        path.display()
+    );
+    session.reading(path);
+    let model = Model::read(path);
+    session.hide();
+    Ok(model?)
 }
 
 /// Why a graph has no answer, without its name.

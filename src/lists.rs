@@ -3,7 +3,6 @@
 use super::input::{InputArguments, ensure_not_of_tracks, recorded};
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
-use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
@@ -70,7 +69,7 @@ impl Asked<'_> {
             ensure_not_of_tracks(self.of_tracks_alone, self.graph)?;
         }
         let files = self.files.iter();
-        let found = files.map(|file| list(session, self, &mut input, file));
+        let found = files.map(|file| list(session, self, &input, file));
         let found = found.collect::<Result<Vec<List>>>()?;
         let (images, seed) = (input.graph.nodes() as u32, Options::default().seed);
         let name = |v| input.labels.label(v).into_owned();
@@ -128,20 +127,11 @@ fn first(path: &Path, options: &ReadOptions) -> Result<NamedGraph> {
 }
 
 /// Reads a list, and decides what its images determine by themselves.
-fn list(session: &Session, asked: &Asked<'_>, input: &mut NamedGraph, file: &Path) -> Result<List> {
-    let (images, again) = lists::images(input, file)?;
-    if again > 0 {
-        let note = format!(
-            "{}: {} given again, and counted once",
-            file.display(),
-            viewcert_report::counted(again, "name")
-        );
-        input.notes.push(note);
-    }
-    let inside: BTreeSet<u32> = images.iter().copied().collect();
+fn list(session: &Session, asked: &Asked<'_>, input: &NamedGraph, file: &Path) -> Result<List> {
+    let images = lists::images(input, file)?;
+    let is_inside = |v: &u32| images.binary_search(v).is_ok();
     let own = input.graph.edges().iter().copied();
-    let own = own.filter(|(i, j)| inside.contains(i) && inside.contains(j));
-    let own: Vec<(u32, u32)> = own.collect();
+    let own: Vec<(u32, u32)> = own.filter(|(i, j)| is_inside(i) && is_inside(j)).collect();
     let name = file.display().to_string();
     if own.is_empty() {
         return Ok(List::new(name, images, Vec::new()));

@@ -1,6 +1,6 @@
 //! `verify merge MODEL MODEL [DATABASE]`: whether two models can be made one.
 
-use super::input::{InputArguments, recorded};
+use super::input::{InputArguments, read_model, recorded};
 use anyhow::{Context, Result, ensure};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use std::time::Instant;
 use viewcert::decide::Options;
 use viewcert_advice::merge::{self, Two};
 use viewcert_formats::colmap::FeatureTracks;
-use viewcert_formats::{Model, NamedGraph, ReadOptions, open_database, read_graphs};
+use viewcert_formats::{NamedGraph, ReadOptions, open_database, read_graphs};
 use viewcert_report::merge::MergeReport;
 use viewcert_session::Session;
 use viewcert_session::outputs;
@@ -52,29 +52,25 @@ impl Asked<'_> {
         say: impl FnOnce(&MergeReport<'_>) -> Result<T>,
     ) -> Result<T> {
         let start = Instant::now();
-        let [one, other] = [
-            read(session, self.models[0])?,
-            read(session, self.models[1])?,
-        ];
+        let [one, other] = self.models.map(|path| read_model(session, path));
+        let (one, other) = (one?, other?);
         let two = Two::new([(self.models[0], &one), (self.models[1], &other)])?;
         let mut tracks = self
             .database
             .map(|path| self.tracks(session, path))
             .transpose()?;
-        let (found, verdict) = match &mut tracks {
-            None => (two.merge(), None),
+        let found = match &mut tracks {
+            None => two.merge(),
             Some((input, features)) => {
                 let seed = Options::default().seed;
                 let found =
                     session.watched(|watch| merge::of_tracks(&two, input, features, seed, watch));
-                let (found, verdict) = found.with_context(|| input.name.clone())?;
-                (found, Some(verdict))
+                found.with_context(|| input.name.clone())?
             }
         };
-        let tracks = tracks.as_ref().map(|(input, _)| input);
         say(&MergeReport {
             models: self.models.map(|path| path.display().to_string()),
-            tracks: tracks.zip(verdict.as_ref()),
+            tracks: tracks.as_ref().map(|(input, _)| input),
             merge: &found,
             time: start.elapsed(),
         })
@@ -124,16 +120,4 @@ pub(super) fn run(session: &Session, arguments: &MergeArguments) -> Result<u8> {
     });
     let [one, other] = asked.models.map(Path::display);
     recorded(arguments.json, format!("{one} and {other}").as_ref(), done)
-}
-
-fn read(session: &Session, path: &Path) -> Result<Model> {
-    ensure!(
-        path.is_dir(),
-        "{}: this is no folder; name the folder that holds cameras, images and points3D",
-        path.display()
-    );
-    session.reading(path);
-    let model = Model::read(path);
-    session.hide();
-    Ok(model?)
 }

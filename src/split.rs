@@ -1,6 +1,6 @@
 //! `verify split MODEL DIR`: a model taken apart where its observations do not hold it together.
 
-use super::input::recorded;
+use super::input::{read_model, recorded};
 use anyhow::{Context, Result, anyhow, ensure};
 use clap::Args;
 use std::path::PathBuf;
@@ -9,7 +9,7 @@ use viewcert::at_cameras::finished::held;
 use viewcert_advice::split::{self, Free};
 use viewcert_audit::softness::softness;
 use viewcert_formats::error::Problem;
-use viewcert_formats::{Model, ReadOptions, read_graphs};
+use viewcert_formats::{ReadOptions, read_graphs};
 use viewcert_report::counted;
 use viewcert_report::split::SplitReport;
 use viewcert_session::Session;
@@ -22,7 +22,7 @@ pub(super) struct SplitArguments {
     /// frames if they are there. It is read and never written to.
     #[arg(value_name = "MODEL")]
     model: PathBuf,
-    /// The folder for the parts: a COLMAP model for each, and a table. It holds nothing else.
+    /// The folder for the parts, a COLMAP model for each: a new or an empty one.
     #[arg(value_name = "DIR")]
     folder: PathBuf,
     /// In how many images a point has to be seen to hold them together: 3 asks what global mapping
@@ -47,23 +47,12 @@ pub(super) fn run(session: &Session, arguments: &SplitArguments) -> Result<u8> {
 /// Reads the model, decides its tracks, writes the parts and reports.
 fn taken_apart(session: &Session, arguments: &SplitArguments) -> Result<u8> {
     let start = Instant::now();
-    let path = &arguments.model;
-    ensure!(
-        path.is_dir(),
-        "{}: this is no folder; name the folder that holds cameras, images and points3D",
-        path.display()
-    );
-    split::check(&arguments.folder, path)?;
-    session.reading(path);
+    let (path, folder) = (&arguments.model, &arguments.folder);
+    split::check(folder, path)?;
     let least = arguments.min_views as usize;
-    let refused = |why: String| {
-        anyhow!(
-            "{}/{why}; map again, or leave it out of the model",
-            path.display()
-        )
-    };
-    let model = match Model::read(path) {
+    let model = match read_model(session, path) {
         Ok(model) if !model.points.is_empty() => model,
+        Err(error) if !path.is_dir() => return Err(error),
         // A model without points, and a folder that is none, are refused as they are everywhere.
         other => match read_graphs(path, &ReadOptions::default()).next() {
             Some(Err(error)) if !matches!(error.problem, Problem::Model) => {
@@ -72,26 +61,23 @@ fn taken_apart(session: &Session, arguments: &SplitArguments) -> Result<u8> {
             _ => other?,
         },
     };
-    let posed = model.posed(least, !arguments.no_rigs).map_err(refused)?;
+    let name = path.display();
+    let posed = model.posed(least, !arguments.no_rigs);
+    let posed =
+        posed.map_err(|why| anyhow!("{name}/{why}; map again, or leave it out of the model"))?;
     ensure!(
         posed.images.len() > 1,
-        "{}: the model has {}, and a part has two or more; name another model",
-        path.display(),
+        "{name}: the model has {}, and a part has two or more; name another model",
         counted(posed.images.len(), "image")
     );
-    session.hide();
     let held = session.watched(|watch| held(&posed.exact(), watch));
-    let held = held.with_context(|| path.display().to_string())?;
-    session.doing(format!("measuring {}", path.display()));
+    let held = held.with_context(|| name.to_string())?;
+    session.doing(format!(
+        "measuring {name}, and writing {}",
+        folder.display()
+    ));
     let softness = softness(&posed, held.is_scaled);
-    session.doing(format!("writing {}", arguments.folder.display()));
-    let found = split::split(
-        session.outputs(),
-        &arguments.folder,
-        &model,
-        &posed,
-        &held.parts,
-    );
+    let found = split::split(session.outputs(), folder, &model, &posed, &held.parts);
     session.hide();
     let (softness, found) = (softness?, found?);
     let mut notes = Vec::new();
@@ -114,12 +100,10 @@ fn taken_apart(session: &Session, arguments: &SplitArguments) -> Result<u8> {
         ));
     }
     let report = SplitReport {
-        model: path.display().to_string(),
+        model: name.to_string(),
         notes,
-        points: posed.points.len(),
+        posed: &posed,
         least,
-        observations: posed.tracks.iter().map(Vec::len).sum(),
-        images: posed.images.len(),
         free: &Free::of(&held, &model, &posed),
         held: &held,
         softness,

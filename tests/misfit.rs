@@ -406,14 +406,14 @@ fn models_of_other_databases_make_the_merger_abort() {
     );
     assert!(next.contains("colmap model_merger --input_path1"), "{next}");
     let (works, merger, next) = said(3, 100);
-    let words = "aborts: image 00.jpg has the number 1 in model 1 and the number 101 in model 2";
+    let words = "aborts: image 00.jpg has another number, or other features, in the other model";
     assert!(!works && merger.contains(words), "{merger}");
     assert!(
         next.starts_with("python3 -c 'import os, pycolmap"),
         "{next}"
     );
     let (works, merger, _) = said(4, 0);
-    let words = "aborts: image 00.jpg has 3 features in model 1 and 4 features in model 2";
+    let words = "aborts: image 00.jpg has another number, or other features, in the other model";
     assert!(!works && merger.contains(words), "{merger}");
     // Without points of both nothing can be compared by it.
     for name in ["one", "other"] {
@@ -424,7 +424,6 @@ fn models_of_other_databases_make_the_merger_abort() {
     let data = data().join("turn4/files");
     let [one, other] = ["merge_a", "merge_other_db"].map(|name| data.join(name));
     let found = verify(&["merge", one.to_str().unwrap(), other.to_str().unwrap()]);
-    let words =
-        "aborts: image camera000001_frame000004.png has the number 5 in model 1 and the number 105";
+    let words = "aborts: image camera000001_frame000004.png has another number, or other features";
     assert!(found.out.contains(words), "{}", found.out);
 }

@@ -72,17 +72,17 @@ impl List {
     }
 }
 
-/// Reads a list of names, one on each line: its images, increasing, and how many names come again.
+/// Reads a list of names, one on each line: its images, increasing.
 ///
 /// # Errors
 /// A file that cannot be read or is empty; a name of no image, with its line.
-pub fn images(input: &NamedGraph, file: &Path) -> Result<(Vec<u32>, usize)> {
+pub fn images(input: &NamedGraph, file: &Path) -> Result<Vec<u32>> {
     let text = whole::text(file)?;
     let all = 0..input.graph.nodes() as u32;
     let nodes: BTreeMap<String, u32> = all
         .map(|v| (input.labels.label(v).into_owned(), v))
         .collect();
-    let (mut images, mut again) = (BTreeSet::new(), 0);
+    let mut images = BTreeSet::new();
     for (number, line) in (1..).zip(text.lines()) {
         let name = line.trim();
         if name.is_empty() {
@@ -95,14 +95,14 @@ pub fn images(input: &NamedGraph, file: &Path) -> Result<(Vec<u32>, usize)> {
                 input.name
             );
         };
-        again += usize::from(!images.insert(node));
+        images.insert(node);
     }
     ensure!(
         !images.is_empty(),
         "{}: the list is empty; put a name on each line",
         file.display()
     );
-    Ok((images.into_iter().collect(), again))
+    Ok(images.into_iter().collect())
 }
 
 /// What lists determine, each by itself and together.

@@ -1,7 +1,7 @@
 //! Two models, and whether what they share fixes the one against the other.
 //!
 //! In: two models of COLMAP, each right in itself, and perhaps the camera-point graph of their
-//! database. Out: what they share, what is left free between them, and what to match. Two models
+//! database. Out: what they share, and what is left free between them. Two models
 //! differ by a similarity: 3 degrees of freedom of rotation, and in the terms of docs/theory.md,
 //! section 12, 3 of translation and 1 of scale. An image in both fixes the rotation, and so does a
 //! verified pair from the one to the other; then each model is a body, and its images and points
@@ -12,22 +12,18 @@
 //! images are at one place, and how well what is shared fits ([`misfit`](crate::misfit)): two models that
 //! contradict each other cannot both be right. Nothing is written.
 
-use crate::Shapes;
 use crate::condensation::{chain, with};
 use crate::misfit::{Common, Misfit, View, first_at_place};
-use crate::named::{Names, Suggestion};
-use crate::parts::Parts;
-use crate::task::{Task, number};
-use crate::words::{self, Scales};
+use crate::named::Names;
 use anyhow::{Context, Error, Result, ensure};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::Path;
+use viewcert::KnownParts;
 use viewcert::decide::{Known, Options, Question, decide};
 use viewcert::geometry::model::Model as Geometry;
 use viewcert::graph::UnionFind;
 use viewcert::watch::Watch;
-use viewcert::{KnownParts, Verdict};
 use viewcert_formats::colmap::FeatureTracks;
 use viewcert_formats::model::{Image, Model};
 use viewcert_formats::{NamedGraph, with_rigs};
@@ -35,16 +31,11 @@ use viewcert_formats::{NamedGraph, with_rigs};
 /// Degrees of freedom of a similarity, of translation and scale, and of scale.
 const SIMILARITY: usize = 7;
 const RIGID: usize = SIMILARITY - SCALE;
-const TRANSLATION_AND_SCALE: usize = 4;
 const SCALE: usize = 1;
 
 /// How many images COLMAP's `model_merger` has to find in both models
 /// (`AlignReconstructionsViaReprojections`).
 pub const MERGER: usize = 3;
-
-/// Most suggestions that are looked for, and that are kept.
-const LOOKED_FOR: usize = 40;
-const KEPT: usize = 8;
 
 /// What two models share, and what follows.
 #[derive(Clone, Debug, Serialize)]
@@ -57,8 +48,6 @@ pub struct Merge {
     pub shared_images: Vec<String>,
     /// At how many places these were taken: images of a frame may be at one.
     pub shared_places: usize,
-    /// Whether frames with a known base line say the scale of each.
-    pub scaled: [bool; 2],
     /// How many points of both are seen by one feature of an image of both; null if the features
     /// of these images are not the same.
     pub shared_points: Option<usize>,
@@ -66,20 +55,15 @@ pub struct Merge {
     pub misfit: Option<Misfit>,
     /// Whether something fixes the one against the other: rotation, translation and scale.
     pub determined: bool,
-    /// How many of the 7 degrees of freedom are left; null where third parts may fix some of them.
+    /// How many of the 7 degrees of freedom are left; null where tracks fix some of them.
     pub freedom: Option<usize>,
     /// These in words.
-    pub free: String,
+    pub free: &'static str,
     /// What it rests on: `models` or `tracks`.
     pub by: &'static str,
-    /// Whether COLMAP's `model_merger` can work on both.
-    pub model_merger: bool,
-    /// What it does.
+    /// What COLMAP's `model_merger` does with both.
     #[serde(skip)]
     pub merger: Merger,
-    /// With a database, images to match that would join the two; empty if none was found.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub suggestions: Option<Vec<Suggestion>>,
 }
 
 impl Merge {
@@ -104,12 +88,8 @@ pub enum Merger {
     TooFew(usize),
     /// It would make up the scale, as all images of both are at one place.
     OnePlace,
-    /// It aborts: an image has these numbers.
-    OtherNumbers(String, [u32; 2]),
-    /// It aborts: an image has so many features.
-    OtherFeatures(String, [usize; 2]),
-    /// It refuses: a number is that of these images.
-    OtherNames(u32, [String; 2]),
+    /// It aborts: an image has another number or other features in the other model.
+    Other(String),
 }
 
 /// Two models, and what they share.
@@ -208,24 +188,17 @@ impl<'a> Two<'a> {
         Ok(pairs.collect())
     }
 
-    /// What both share, as it is measured: of points those that are one of each model.
+    /// What both share, as it is measured.
     fn common(&self, same: impl Iterator<Item = (u64, u64)>, at_one_place: bool) -> Common<'a> {
         let same: BTreeSet<(u64, u64)> = same.collect();
-        let (mut of_one, mut of_other) = (HashMap::new(), HashMap::new());
-        for (a, b) in &same {
-            *of_one.entry(a).or_insert(0) += 1;
-            *of_other.entry(b).or_insert(0) += 1;
-        }
-        let single = same
-            .iter()
-            .filter(|(a, b)| of_one[a] == 1 && of_other[b] == 1);
+        let same = same.iter();
         let [one, other] = &self.places;
         let images = self.both.iter();
         Common {
             images: images
                 .map(|(name, &[a, b])| (*name, [self.views[0][a], self.views[1][b]]))
                 .collect(),
-            points: single
+            points: same
                 .filter_map(|(a, b)| Some([*one.get(a)?, *other.get(b)?]))
                 .collect(),
             at_one_place,
@@ -234,71 +207,42 @@ impl<'a> Two<'a> {
 
     /// What COLMAP's own command does.
     fn merger(&self, at_one_place: bool) -> Merger {
-        let [one, other] = self.models;
-        let names = other.images.iter().map(|image| (image.id, &image.name));
-        let names: HashMap<u32, &Box<str>> = names.collect();
-        let seen = |[a, b]: &[&Image; 2]| {
-            a.points
-                .iter()
-                .zip(&b.points)
-                .any(|(a, b)| a.is_some() && b.is_some())
+        let names = self.models[1].images.iter();
+        let names: HashMap<u32, &Box<str>> = names.map(|image| (image.id, &image.name)).collect();
+        let is_seen = |[a, b]: &[&Image; 2]| {
+            let mut both = a.points.iter().zip(&b.points);
+            both.any(|(a, b)| a.is_some() && b.is_some())
         };
-        let useful = self.images().filter(|(_, both)| seen(both)).count();
-        let all = || {
-            self.images().take(if self.both.len() < MERGER {
-                0
-            } else {
-                usize::MAX
-            })
-        };
-        let number = all().find(|(_, [a, b])| a.id != b.id);
-        let features = all().find(|(_, [a, b])| a.points.len() != b.points.len());
-        let renamed = one.images.iter().find_map(|image| {
-            let name = *names.get(&image.id)?;
-            (*name != image.name).then(|| (image.id, [image.name.to_string(), name.to_string()]))
+        let useful = self.images().filter(|(_, both)| is_seen(both)).count();
+        let is_other = |[a, b]: [&Image; 2]| a.id != b.id || a.points.len() != b.points.len();
+        let other = self.images().find(|(_, both)| is_other(*both));
+        let other = other.filter(|_| self.both.len() >= MERGER);
+        let mut all = self.models[0].images.iter();
+        let renamed = all.find(|image| {
+            names
+                .get(&image.id)
+                .is_some_and(|name| **name != image.name)
         });
-        match (number, features, renamed) {
-            (Some((name, both)), ..) => {
-                Merger::OtherNumbers(name.to_owned(), both.map(|image| image.id))
-            }
-            (_, Some((name, both)), _) => {
-                Merger::OtherFeatures(name.to_owned(), both.map(|image| image.points.len()))
-            }
+        match (other, renamed) {
+            (Some((name, _)), _) => Merger::Other(name.to_owned()),
             _ if useful < MERGER => Merger::TooFew(useful),
-            (_, _, Some((number, names))) => Merger::OtherNames(number, names),
+            (_, Some(image)) => Merger::Other(image.name.to_string()),
             _ if at_one_place => Merger::OnePlace,
             _ => Merger::Works,
         }
     }
 
-    /// For every image of both, in the order of names, the first one at the same place: images of a frame
-    /// may be at one, by either model, and others are where the numbers of both say so.
-    fn places(&self) -> Vec<usize> {
-        let names: Vec<&str> = self.both.keys().copied().collect();
-        let at = |name: &str| names.binary_search(&name).ok();
-        let mut sets = UnionFind::new(names.len());
-        for model in self.models {
-            for (&one, others) in &model.known_frames().together {
-                let one = std::iter::once(&model.images[one as usize].name);
-                let here: Vec<usize> = one.chain(others).filter_map(|name| at(name)).collect();
-                here.windows(2).for_each(|two| {
-                    sets.union(two[0], two[1]);
-                });
-            }
-        }
-        let [one, other] = [0, 1].map(|side| {
+    /// At how many places the images of both were taken, by the numbers of both models.
+    fn places(&self) -> usize {
+        let first = [0, 1].map(|side| {
             let points: Vec<[f64; 3]> = self.places[side].values().copied().collect();
-            let first = first_at_place(&self.views[side], &points);
-            let of_both = self.both.values();
-            of_both
-                .map(|both| first[both[side]])
-                .collect::<Vec<usize>>()
+            first_at_place(&self.views[side], &points)
         });
-        let mut known = HashMap::new();
-        for (k, place) in one.into_iter().zip(other).enumerate() {
-            sets.union(*known.entry(place).or_insert(k), k);
-        }
-        (0..names.len()).map(|k| sets.find(k)).collect()
+        let places = self
+            .both
+            .values()
+            .map(|both| [0, 1].map(|side| first[side][both[side]]));
+        places.collect::<BTreeSet<_>>().len()
     }
 
     /// What two models alone tell.
@@ -309,10 +253,17 @@ impl<'a> Two<'a> {
     /// The same, with further points that are the same.
     fn merge_with(&self, further: impl Iterator<Item = (u64, u64)>) -> Merge {
         let models = self.models;
-        let places = self.places().into_iter().collect::<BTreeSet<_>>().len();
-        let shared_points = self.same_features.then(|| classes(self.seen_in_both()));
-        let scaled = models.map(|model| !model.known_frames().groups.is_empty());
-        let of_scale = if scaled == [true, true] { 0 } else { SCALE };
+        let places = self.places();
+        let shared_points = self.same_features.then(|| {
+            let points = self.seen_in_both().map(|(one, _)| one);
+            points.collect::<BTreeSet<u64>>().len()
+        });
+        let is_scaled = |model: &Model| !model.known_frames().groups.is_empty();
+        let of_scale = if models.iter().all(|model| is_scaled(model)) {
+            0
+        } else {
+            SCALE
+        };
         let freedom = match (places, shared_points.unwrap_or(0)) {
             (0, _) => RIGID + of_scale,
             (1, 0) => of_scale,
@@ -323,7 +274,6 @@ impl<'a> Two<'a> {
         Merge {
             images: models.map(|model| model.images.len()),
             shared_places: places,
-            scaled,
             points: models.map(|model| model.points.len()),
             shared_images: self.both.keys().map(|&name| name.to_owned()).collect(),
             shared_points,
@@ -334,9 +284,7 @@ impl<'a> Two<'a> {
             freedom: Some(freedom),
             free: free(freedom),
             by: "models",
-            model_merger: matches!(merger, Merger::Works | Merger::OnePlace),
             merger,
-            suggestions: None,
         }
     }
 }
@@ -361,34 +309,19 @@ fn refusal(path: &Path, why: &str) -> Error {
     ))
 }
 
-/// How many classes of points there are: points of the two models that are the same, directly or by
-/// others.
-fn classes(same: impl Iterator<Item = (u64, u64)>) -> usize {
-    let same: BTreeSet<(u64, u64)> = same.collect();
-    let mut sets = UnionFind::new(0);
-    let (mut first, mut second) = (BTreeMap::new(), BTreeMap::new());
-    for (a, b) in same {
-        let a = *first.entry(a).or_insert_with(|| sets.push());
-        let b = *second.entry(b).or_insert_with(|| sets.push());
-        sets.union(a, b);
-    }
-    let roots: BTreeSet<usize> = first.values().map(|&a| sets.find(a)).collect();
-    roots.len()
-}
-
-fn free(freedom: usize) -> String {
+fn free(freedom: usize) -> &'static str {
     match freedom {
-        0 => "nothing".to_owned(),
-        SIMILARITY => "everything: rotation, translation and relative scale".to_owned(),
-        RIGID => "rotation and translation".to_owned(),
-        _ => words::meaning(Geometry::Calibrated, freedom, Scales::Free),
+        0 => "nothing",
+        SCALE => "relative scale",
+        RIGID => "rotation and translation",
+        _ => "everything: rotation, translation and relative scale",
     }
 }
 
 /// What two models and the tracks of their database tell: `input` is the camera-point graph, whose
 /// cameras have the names of images. Where rigs have known base lines, which known parts are not
 /// decided with, it gets the pairs of a chain of triangles on the cameras of each model, which holds
-/// them together as well (4.4). A decision, and those of suggestions.
+/// them together as well (4.4). A decision, unless the models alone determine everything.
 ///
 /// # Errors
 /// An image of a model that the database does not have; those of decisions; work that was stopped.
@@ -398,10 +331,13 @@ pub fn of_tracks(
     tracks: &FeatureTracks,
     seed: u64,
     watch: &Watch,
-) -> Result<(Merge, Verdict)> {
+) -> Result<Merge> {
     let mut parts = cameras_of(two.models, input)?;
     let mut merge = two.merge_with(two.in_one_track(tracks)?.into_iter());
-    if merge.shared_images.len() > 1 && merge.shared_places == 1 && !merge.determined {
+    if merge.determined {
+        return Ok(merge);
+    }
+    if merge.shared_images.len() > 1 && merge.shared_places == 1 {
         // Several cameras at one place are one place, and would be several.
         let [one, other] = &mut parts;
         let mut shared = 0;
@@ -411,7 +347,6 @@ pub fn of_tracks(
             !is_shared || shared == 1
         });
     }
-    let parts = parts;
     let question = match with_rigs(Known::default(), input)? {
         Known::Parts(_) => {
             let known = KnownParts::new(input.graph.nodes() as u32, parts.clone())?;
@@ -422,61 +357,20 @@ pub fn of_tracks(
             Question::calibrated(lines)
         }
     };
-    let input = &*input;
-    let names = Names::new(input);
-    let cameras = names.images().end;
-    let graph = &input.graph;
     let options = Options::default().question(question).seed(seed);
-    let verdict = decide(graph, &options.watch(watch.clone()))?;
-    let found = Parts::new(graph, &verdict);
-    let components = parts.each_ref().map(|part| home(&found, &verdict, part));
+    let verdict = decide(&input.graph, &options.watch(watch.clone()))?;
     merge.by = "tracks";
-    let is_connected = are_connected(input, &parts, cameras);
-    let is_one = components[0].is_some() && components[0] == components[1];
-    merge.determined |= is_one && is_connected;
-    merge.suggestions = Some(Vec::new());
-    if merge.determined {
-        merge.freedom = Some(0);
-        merge.free = free(0);
-        return Ok((merge, verdict));
-    }
-    if is_one {
-        // Tracks are decided with known rotations, and nothing says this one.
-        merge.freedom = None;
-        merge.free =
-            "rotation: no verified pair and no image leads from the one to the other".to_owned();
-        return Ok((merge, verdict));
-    }
-    let task = Task::new(input, &verdict, seed, watch.clone());
-    let (named, joints) = task.joints(&mut Shapes::default())?;
-    let between = components.map(|component| component.map(number));
-    let joint = named.joints.iter().find(|joint| {
-        let [one, other] = joint.between.map(Some);
-        between == [one, other] || between == [other, one]
+    merge.determined = verdict.components.iter().any(|component| {
+        let nodes = component.nodes();
+        let mut all = parts.iter().flatten();
+        all.all(|v| nodes.binary_search(v).is_ok())
     });
-    merge.freedom = match joint {
-        Some(joint) => Some(joint.freedom),
-        None if !merge.shared_images.is_empty() => merge.freedom,
-        None if is_connected => None,
-        None if merge.scaled == [true, true] => Some(RIGID),
-        None => Some(SIMILARITY),
-    };
-    merge.free = match merge.freedom {
-        Some(_) if let Some(joint) = joint => joint.meaning.clone(),
-        Some(freedom) => free(freedom),
-        None => format!(
-            "{TRANSLATION_AND_SCALE} degrees of freedom at most: relative scale and translation; other \
-             parts of the tracks may lie between"
-        ),
-    };
-    let [Some(one), Some(other)] = between else {
-        return Ok((merge, verdict));
-    };
-    let suggestions = task.suggest(&joints, LOOKED_FOR, None)?;
-    let joins = |found: &Suggestion| [one, other].iter().all(|part| found.joins.contains(part));
-    let suggestions = suggestions.into_iter().filter(joins).take(KEPT);
-    merge.suggestions = Some(suggestions.collect());
-    Ok((merge, verdict))
+    if merge.determined {
+        (merge.freedom, merge.free) = (Some(0), free(0));
+    } else if merge.shared_images.is_empty() && are_connected(input, &parts) {
+        (merge.freedom, merge.free) = (None, "translation and scale, or a part of them");
+    }
+    Ok(merge)
 }
 
 /// The cameras of both models in a camera-point graph, increasing.
@@ -508,30 +402,17 @@ fn cameras_of(models: [&Model; 2], input: &NamedGraph) -> Result<[Vec<u32>; 2]> 
     Ok([one?, other?])
 }
 
-/// The component that holds all of a known part; none if no track that counts is at it.
-fn home(parts: &Parts, verdict: &Verdict, part: &[u32]) -> Option<usize> {
-    let mut all = 0..verdict.components.len();
-    all.find(|&component| {
-        let nodes = parts.nodes_of(component);
-        part.iter().all(|v| nodes.binary_search(v).is_ok())
-    })
-}
-
 /// Whether verified pairs, frames, or images of both, lead from the one model to the other, so that
 /// the rotation between them is known.
-fn are_connected(input: &NamedGraph, parts: &[Vec<u32>; 2], cameras: u32) -> bool {
-    let mut sets = UnionFind::new(cameras as usize);
+fn are_connected(input: &NamedGraph, parts: &[Vec<u32>; 2]) -> bool {
+    let mut sets = UnionFind::new(input.graph.nodes());
     let known = input.matching.iter().flat_map(|matching| &matching.others);
     for pair in known.filter(|pair| pair.used) {
         sets.union(pair.images.0 as usize, pair.images.1 as usize);
     }
-    for part in parts {
-        part.windows(2).for_each(|two| {
-            sets.union(two[0] as usize, two[1] as usize);
-        });
-    }
-    for frame in input.frames.iter().flat_map(|frames| &frames.groups) {
-        frame.windows(2).for_each(|two| {
+    let frames = input.frames.iter().flat_map(|frames| &frames.groups);
+    for group in frames.chain(parts) {
+        group.windows(2).for_each(|two| {
             sets.union(two[0] as usize, two[1] as usize);
         });
     }
@@ -541,14 +422,6 @@ fn are_connected(input: &NamedGraph, parts: &[Vec<u32>; 2], cameras: u32) -> boo
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn points_are_the_same_by_others() {
-        assert_eq!(classes([].into_iter()), 0);
-        // 1 = 10 = 2 = 20; 3 = 30.
-        let same = [(1, 10), (2, 10), (2, 20), (3, 30), (3, 30)];
-        assert_eq!(classes(same.into_iter()), 2);
-    }
 
     #[test]
     fn what_is_free_has_words() {

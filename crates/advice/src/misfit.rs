@@ -133,11 +133,7 @@ impl Common<'_> {
         let candidates = self.candidates();
         let costs = candidates.iter().map(|one| judges.cost(&units, one));
         let best = costs.zip(&candidates).min_by(|a, b| a.0.total_cmp(&b.0))?.1;
-        let refined = self.refined(&units, best);
-        let similarity = match refined {
-            Some(refined) if judges.cost(&units, &refined) <= judges.cost(&units, best) => refined,
-            _ => best.clone(),
-        };
+        let similarity = best.clone();
         let off = |(name, views): &(&str, [View; 2])| {
             let [off, turned] = self.error(&units, &similarity, views);
             Disagreement {
@@ -227,31 +223,6 @@ impl Common<'_> {
         let of_points = &mut self.points.iter();
         let of_points = &mut of_points.map(|both| units.of_points(similarity, both) / OFF);
         mean(of_images, self.images.len()) + mean(of_points, self.points.len())
-    }
-
-    /// Scale and translation by least squares over what agrees.
-    fn refined(&self, units: &Units, best: &Similarity) -> Option<Similarity> {
-        let images = self.images.iter().filter(|(_, views)| {
-            let [off, turned] = self.error(units, best, views);
-            off <= OFF && turned <= TURNED
-        });
-        let centres = images.map(|(_, views)| views.map(|view| view.centre));
-        let points = self.points.iter().copied();
-        let points = points.filter(|both| units.of_points(best, both) <= OFF);
-        let both: Vec<[Vector; 2]> = centres.chain(points).collect();
-        let mean = |side: usize| {
-            let sum = |k: usize| both.iter().map(|things| things[side][k]).sum::<f64>();
-            [0, 1, 2].map(|k| sum(k) / both.len() as f64)
-        };
-        let (from, to) = (mean(0), mean(1));
-        let (mut along, mut all) = (0.0, 0.0);
-        for &[x, y] in &both {
-            let (x, y) = (times(&best.rotation, minus(x, from)), minus(y, to));
-            along += dot(x, y);
-            all += dot(x, x);
-        }
-        let scale = along / all;
-        (scale.is_normal() && scale > 0.0).then(|| Similarity::new(scale, best.rotation, from, to))
     }
 }
 

@@ -3,20 +3,15 @@
 //! In: a model of COLMAP, and what its observations hold at its poses ([`Held`]). Out: what is free, in words, and for each
 //! part a copy of what its images see ([`Model::of_images`]). Nothing is computed anew, and the model is not touched.
 
-use crate::folder::{ensure_outside, ensure_own, is_called, paths, resolved};
+use crate::folder::{ensure_outside, paths, resolved};
 use anyhow::{Result, ensure};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 use viewcert::at_cameras::finished::{Held, Hinge, Motion};
-use viewcert_formats::model::{Model, Posed, is_file_of_model};
+use viewcert_formats::model::{Model, Posed};
 use viewcert_session::Outputs;
-
-/// The table of parts in the folder.
-const TABLE: &str = "parts.tsv";
-/// The first line of the table, by which an earlier run is known.
-const HEAD: [&str; 5] = ["part", "images", "points", "observations", "shared"];
 
 /// What a model was taken apart into.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -25,8 +20,6 @@ pub struct Split {
     pub folder: String,
     /// The parts, larger ones first.
     pub parts: Vec<Piece>,
-    /// The images of several parts, and which these are.
-    pub shared: Vec<Shared>,
     /// The images of no part.
     pub outside: Vec<String>,
     /// How many points are in a part without all of their views.
@@ -46,15 +39,6 @@ pub struct Piece {
     pub points: usize,
     /// How many views these have.
     pub observations: usize,
-}
-
-/// An image of several parts.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Shared {
-    /// The image.
-    pub image: String,
-    /// The parts, counted from 1.
-    pub parts: Vec<usize>,
 }
 
 /// What is free between two parts.
@@ -82,18 +66,16 @@ impl Free {
 
 /// A motion in words, by what stays where it is.
 fn meaning(joint: &Hinge, model: &Model, posed: &Posed) -> String {
-    let images = joint
-        .images
-        .iter()
-        .map(|&v| format!("image {}", model.images[v as usize].name));
     let points: Vec<u64> = joint
         .points
         .iter()
         .map(|&k| posed.ids[k as usize])
         .collect();
-    let still = images
-        .chain(points.iter().map(|id| format!("point {id}")))
-        .next();
+    let still = match (joint.images.first(), points.first()) {
+        (Some(&v), _) => Some(format!("image {}", model.images[v as usize].name)),
+        (None, Some(id)) => Some(format!("point {id}")),
+        (None, None) => None,
+    };
     let about = still
         .as_ref()
         .map_or_else(String::new, |still| format!(" about {still}"));
@@ -114,8 +96,7 @@ fn meaning(joint: &Hinge, model: &Model, posed: &Posed) -> String {
     }
 }
 
-/// Refuses a folder that holds anything but an earlier run of this, that holds the model, or that
-/// is in the model's folder.
+/// Refuses a folder that holds anything, or that is in the model's folder.
 ///
 /// # Errors
 /// What is in the way.
@@ -127,21 +108,13 @@ pub fn check(folder: &Path, model: &Path) -> Result<()> {
         "split {name}: this is in the folder of the model, where nothing is ever written; name another \
          folder"
     );
-    ensure_own("split", folder, (TABLE, &HEAD), |path| {
-        if is_called(path, &[TABLE]) && path.is_file() {
-            return Ok(None);
-        }
-        let name = path.file_name().and_then(|name| name.to_str());
-        let is_number = name.is_some_and(|name| name.bytes().all(|byte| byte.is_ascii_digit()));
-        if !is_number || !path.is_dir() || path.is_symlink() {
-            return Ok(Some(path.to_owned()));
-        }
-        let is_ours = |file: &Path| {
-            let name = file.file_name().and_then(|name| name.to_str());
-            file.is_file() && name.is_some_and(is_file_of_model)
-        };
-        Ok(paths(path)?.into_iter().find(|file| !is_ours(file)))
-    })
+    let is_free =
+        fs::symlink_metadata(folder).is_err() || paths(folder).is_ok_and(|all| all.is_empty());
+    ensure!(
+        is_free,
+        "split {name}: this is there, and no empty folder; name a new one, or remove it"
+    );
+    Ok(())
 }
 
 /// Writes the parts of a model into a folder, whole or not at all. A point is in a part if two of its images see it from
@@ -157,42 +130,33 @@ pub fn split(
     parts: &[Vec<u32>],
 ) -> Result<Split> {
     let first = posed.first_at_place();
-    let name = |v: u32| model.images[v as usize].name.to_string();
+    let names = |images: &mut dyn Iterator<Item = u32>| {
+        let names = images.map(|v| model.images[v as usize].name.to_string());
+        let mut names: Vec<String> = names.collect();
+        names.sort();
+        names
+    };
     let digits = parts.len().to_string().len().max(3);
-    let mut parts_of: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
-    for (part, images) in (1..).zip(parts) {
-        images
-            .iter()
-            .for_each(|&v| parts_of.entry(v).or_default().push(part));
-    }
-    let shared = parts_of.iter().filter(|(_, of)| of.len() > 1);
-    let outside = (0..model.images.len() as u32).filter(|v| !parts_of.contains_key(v));
+    let inside: BTreeSet<u32> = parts.iter().flatten().copied().collect();
+    let mut outside = (0..model.images.len() as u32).filter(|v| !inside.contains(v));
     let mut found = Split {
         folder: folder.display().to_string(),
         parts: Vec::new(),
-        shared: shared
-            .map(|(&v, of)| Shared {
-                image: name(v),
-                parts: of.clone(),
-            })
-            .collect(),
-        outside: outside.map(name).collect(),
+        outside: names(&mut outside),
         points_cut: 0,
         points_left_out: 0,
     };
     let places = model.images.iter().map(|image| image.id).zip(0..);
     let places: BTreeMap<u32, u32> = places.collect();
-    let views: BTreeMap<u64, usize> = model
-        .points
-        .iter()
-        .map(|point| (point.id, point.track.len()))
-        .collect();
+    let views = model.points.iter();
+    let views: BTreeMap<u64, usize> = views.map(|point| (point.id, point.track.len())).collect();
     let mut is_cut: BTreeMap<u64, bool> = BTreeMap::new();
     outputs.folder(folder, |new| {
         for (number, images) in (1..).zip(parts) {
-            let inside: BTreeSet<u32> = images.iter().copied().collect();
             let place = |id: u32| {
-                let v = places.get(&id).filter(|v| inside.contains(v))?;
+                let v = places
+                    .get(&id)
+                    .filter(|v| images.binary_search(v).is_ok())?;
                 Some(first[*v as usize] as u32)
             };
             let part = model.of_images(|image| place(image.id));
@@ -202,38 +166,16 @@ pub fn split(
             for point in &part.points {
                 *is_cut.entry(point.id).or_default() |= views[&point.id] > point.track.len();
             }
-            let mut names: Vec<String> = images.iter().map(|&v| name(v)).collect();
-            names.sort();
             found.parts.push(Piece {
                 folder,
-                images: names,
+                images: names(&mut images.iter().copied()),
                 points: part.points.len(),
                 observations: part.points.iter().map(|point| point.track.len()).sum(),
             });
         }
         found.points_cut = is_cut.values().filter(|&&is_cut| is_cut).count();
         found.points_left_out = model.points.len() - is_cut.len();
-        write_table(&new.join(TABLE), &found)
+        Ok(())
     })?;
     Ok(found)
-}
-
-fn write_table(path: &Path, split: &Split) -> Result<()> {
-    let mut out = csv::WriterBuilder::new().delimiter(b'\t').from_path(path)?;
-    out.write_record(HEAD)?;
-    for (number, part) in (1..).zip(&split.parts) {
-        let shared = split
-            .shared
-            .iter()
-            .filter(|shared| shared.parts.contains(&number));
-        let shared: Vec<&str> = shared.map(|shared| &*shared.image).collect();
-        out.write_record([
-            part.folder.clone(),
-            part.images.len().to_string(),
-            part.points.to_string(),
-            part.observations.to_string(),
-            shared.join(","),
-        ])?;
-    }
-    Ok(out.flush()?)
 }

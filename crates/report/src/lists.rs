@@ -3,7 +3,7 @@
 use super::json::{GraphLine, write_line};
 use super::read::ReadLine;
 use super::{condition, counted, size_of, text};
-use crate::shown::{SHOWN, some_names};
+use crate::shown::{SHOWN, rest, some, some_names};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::time::Duration;
@@ -46,9 +46,8 @@ impl ListReport<'_> {
             _ => "each list by its own pairs, calibrated",
         };
         writeln!(out, "  decided     {by}")?;
-        for (k, list) in lists.lists.iter().enumerate() {
-            let title = format!("list {}", k + 1);
-            let condition = self.condition(list.whole);
+        for (k, list) in (1..).zip(&lists.lists) {
+            let (title, condition) = (format!("list {k}"), self.condition(list.whole));
             writeln!(
                 out,
                 "  {title:<12}{}: {}{condition}",
@@ -62,15 +61,7 @@ impl ListReport<'_> {
             let names = some_names(&overlap.images);
             writeln!(out, "  overlap     {a} and {b}: {images}, {names}")?;
         }
-        if lists.overlaps.is_empty() && lists.lists.len() > 1 {
-            writeln!(out, "  overlap     none")?;
-        } else if let Some(more) = lists.overlaps.len().checked_sub(SHOWN + 1) {
-            writeln!(
-                out,
-                "  overlap     and {} more (--json lists them)",
-                more + 1
-            )?;
-        }
+        rest(out, lists.overlaps.len(), "--json lists them")?;
         writeln!(out, "  scale       {}", self.scale())?;
         if !lists.outside.is_empty() {
             let count = counted(lists.outside.len(), "image");
@@ -105,20 +96,15 @@ impl ListReport<'_> {
             names.collect::<Vec<_>>().join(" + ")
         };
         match &lists.fixed[..] {
-            [] => "no list has a part".to_owned(),
             _ if lists.lists.len() == 1 => "there is one list".to_owned(),
             [_] if lists.determined => {
                 let scale = "one scale: the overlaps fix all lists against each other";
                 scale.to_owned() + &self.condition(true)
             }
             [one] => format!("one scale for {}", set(one)),
-            several => {
-                let sets = several.iter().take(SHOWN).map(set);
-                let mut sets: Vec<String> = sets.collect();
-                if several.len() > SHOWN {
-                    sets.push(format!("{} more", several.len() - SHOWN));
-                }
-                format!("free between {}", sets.join(" | "))
+            all => {
+                let sets: Vec<String> = all.iter().map(set).collect();
+                format!("free between {}", some(&sets, " | "))
             }
         }
     }
@@ -148,18 +134,11 @@ fn found(list: &Found) -> String {
     if list.whole {
         return format!("{images}, whole");
     }
-    let sizes = list
-        .parts
-        .iter()
-        .take(SHOWN)
-        .map(|part| part.len().to_string());
-    let mut sizes: Vec<String> = sizes.collect();
-    if list.parts.len() > SHOWN {
-        sizes.push(format!("{} more", list.parts.len() - SHOWN));
-    }
+    let sizes = list.parts.iter().map(|part| part.len().to_string());
+    let sizes = some(&sizes.collect::<Vec<_>>(), ", ");
     let parts = match list.parts.len() {
         0 => "no part".to_owned(),
-        count => format!("{} ({} images)", counted(count, "part"), sizes.join(", ")),
+        count => format!("{} ({sizes} images)", counted(count, "part")),
     };
     let outside = match list.outside.len() {
         0 => String::new(),

@@ -15,9 +15,14 @@ pub(crate) fn rest(out: &mut impl Write, count: usize, advice: &str) -> io::Resu
 
 /// Some names and how many more.
 pub(crate) fn some_names(names: &[String]) -> String {
-    let mut shown: Vec<String> = names.iter().take(SHOWN).cloned().collect();
-    if names.len() > SHOWN {
-        shown.push(format!("and {} more", names.len() - SHOWN));
+    some(names, ", ")
+}
+
+/// Some words and how many more.
+pub(crate) fn some(words: &[String], between: &str) -> String {
+    let mut shown = words[..words.len().min(SHOWN)].join(between);
+    if words.len() > SHOWN {
+        shown += &format!("{between}and {} more", words.len() - SHOWN);
     }
-    shown.join(", ")
+    shown
 }

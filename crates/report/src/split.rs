@@ -10,6 +10,7 @@ use viewcert::at_cameras::finished::Held;
 use viewcert::wording::printable;
 use viewcert_advice::split::{Free, Split};
 use viewcert_audit::softness::{ROUNDING, SHARE, Softness};
+use viewcert_formats::model::Posed;
 
 /// What was found of a model.
 pub struct SplitReport<'a> {
@@ -17,14 +18,10 @@ pub struct SplitReport<'a> {
     pub model: String,
     /// What to know of how it was read.
     pub notes: Vec<String>,
-    /// How many points count.
-    pub points: usize,
+    /// Its numbers, with the points that count.
+    pub posed: &'a Posed,
     /// In how many images each is at least.
     pub least: usize,
-    /// How many observations they have.
-    pub observations: usize,
-    /// The images.
-    pub images: usize,
     /// What the observations hold.
     pub held: &'a Held,
     /// What is free between parts.
@@ -79,29 +76,11 @@ impl SplitReport<'_> {
         match self.softness {
             Some(softness) if softness.pixels.is_finite() => format!(
                 "{:.1e} pixels (floating point, intrinsics fixed): the largest change of an observation where images \
-                 move by {SHARE} of their spread{}",
-                softness.pixels,
-                if self.is_soft() {
-                    "; below 0.01 is rounding"
-                } else {
-                    ""
-                },
+                 move by {SHARE} of their spread; below {ROUNDING} is rounding",
+                softness.pixels
             ),
             Some(_) => "no motion of images to measure".to_owned(),
             None => "not measured: too many images see points in common".to_owned(),
-        }
-    }
-
-    /// What follows.
-    fn why(&self) -> String {
-        match (self.split.parts.len(), self.split.outside.len()) {
-            (0, _) => "no two images are fixed against each other".to_owned(),
-            (1, 0) if self.is_whole() => "there is one part".to_owned(),
-            (1, 0) => "there is one part, and a bundle adjustment may bend it: more points have to hold it".to_owned(),
-            (1, count) => format!("there is one part; nothing fixes {} to it", counted(count, "image")),
-            (count, _) => format!(
-                "there are {count} parts; how they lie against each other in the model rests on no observation"
-            ),
         }
     }
 
@@ -115,8 +94,8 @@ impl SplitReport<'_> {
         for note in &self.notes {
             writeln!(out, "  note        {note}")?;
         }
-        let points = counted(self.points, "point");
-        let observations = counted(self.observations, "observation");
+        let points = counted(self.posed.points.len(), "point");
+        let observations = counted(self.observations(), "observation");
         writeln!(
             out,
             "  points      {points} in at least {} images: {observations}",
@@ -149,25 +128,11 @@ impl SplitReport<'_> {
         )?;
         for part in split.parts.iter().take(SHOWN) {
             let images = counted(part.images.len(), "image");
-            let (first, last) = (&part.images[0], &part.images[part.images.len() - 1]);
             let points = counted(part.points, "point");
-            writeln!(
-                out,
-                "    {}: {images}, {points} ({first} to {last})",
-                part.folder
-            )?;
+            let names = some_names(&part.images);
+            writeln!(out, "    {}: {points}, {images}: {names}", part.folder)?;
         }
-        rest(out, split.parts.len(), "parts.tsv")?;
-        for shared in split.shared.iter().take(SHOWN) {
-            let parts: Vec<String> = shared.parts.iter().map(ToString::to_string).collect();
-            writeln!(
-                out,
-                "  hinge       {} is in {}",
-                shared.image,
-                parts.join(", ")
-            )?;
-        }
-        rest(out, split.shared.len(), "parts.tsv")?;
+        rest(out, split.parts.len(), "--json lists them")?;
         if !split.outside.is_empty() {
             writeln!(out, "  in no part  {}", some_names(&split.outside))?;
         }
@@ -178,12 +143,15 @@ impl SplitReport<'_> {
                 split.points_cut, split.points_left_out
             )?;
         }
-        writeln!(out, "  because     {}", self.why())?;
         writeln!(
             out,
             "  time        {}",
             text::seconds(self.time.as_micros())
         )
+    }
+
+    fn observations(&self) -> usize {
+        self.posed.tracks.iter().map(Vec::len).sum()
     }
 
     /// Writes everything as one line of JSON.
@@ -196,14 +164,13 @@ impl SplitReport<'_> {
         let line = Line {
             model: &self.model,
             notes: &self.notes,
-            points: self.points,
+            points: self.posed.points.len(),
             min_views: self.least,
-            observations: self.observations,
-            images: self.images,
+            observations: self.observations(),
+            images: self.posed.images.len(),
             freedom: freedom.value,
             strength: freedom.strength.name(),
             error_log2: freedom.strength.error_log2(),
-            scaled: self.held.is_scaled,
             free: self.free,
             softest: softest.map(|softness| Softest {
                 pixels: softness.pixels,
@@ -214,7 +181,6 @@ impl SplitReport<'_> {
             split: self.split,
             whole: self.is_whole(),
             answer: self.answer(),
-            why: self.why(),
             seconds: self.time.as_secs_f64(),
         };
         write_line(out, "split", None, &line)
@@ -238,7 +204,6 @@ struct Line<'a> {
     freedom: usize,
     strength: &'static str,
     error_log2: Option<i64>,
-    scaled: bool,
     free: &'a [Free],
     softest: Option<Softest>,
     loose_points: usize,
@@ -246,6 +211,5 @@ struct Line<'a> {
     split: &'a Split,
     whole: bool,
     answer: String,
-    why: String,
     seconds: f64,
 }

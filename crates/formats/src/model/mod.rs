@@ -453,12 +453,6 @@ impl Frame {
     }
 }
 
-/// Every file that a model may have.
-pub fn is_file_of_model(name: &str) -> bool {
-    let mut titles = TITLES.iter().flatten();
-    titles.any(|title| title.strip_prefix("COLMAP's ") == Some(name))
-}
-
 /// A double as the rational number that it is; nothing for infinities and what is no number.
 pub(crate) fn exact(number: f64) -> Option<Rational> {
     Dyadic::from_bits(number.to_bits()).map(Dyadic::exact)
