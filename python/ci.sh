@@ -42,7 +42,7 @@ step "the wheel in the clean environment"
 # The package alone, with numpy and nothing else.
 (cd "$out" && clean/bin/python -c 'import viewcert; assert viewcert.verify([(0, 1)]).value == "solvable"')
 "$out/clean/bin/pip" install --quiet networkx rustworkx scipy pycolmap tqdm matplotlib \
-    'dask[distributed]' joblib pandas polars pyrigi sympy pytest hypothesis mypy
+    'dask[distributed]' joblib pandas polars pyrigi sympy pytest hypothesis mypy types-networkx
 python=$out/clean/bin/python
 
 step "types"

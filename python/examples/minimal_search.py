@@ -15,7 +15,7 @@ import networkx as nx
 import viewcert
 
 
-def minimal(nodes: int) -> Iterator[tuple[viewcert.Entry, nx.Graph]]:
+def minimal(nodes: int) -> Iterator[tuple[viewcert.Entry, nx.Graph[int]]]:
     """The minimal graphs, with at most as many pairs as keep a graph rigid in the plane."""
     for pairs in range((11 * nodes - 9) // 7, 2 * nodes - 2):
         for entry in viewcert.catalog(nodes, edges=pairs, necessary=True, solutions=True):
@@ -30,7 +30,7 @@ def minimal(nodes: int) -> Iterator[tuple[viewcert.Entry, nx.Graph]]:
 def main(nodes: int) -> int:
     found = 0
     for entry, graph in minimal(nodes):
-        triangles = sum(nx.triangles(graph).values()) // 3
+        triangles = sum(len(clique) == 3 for clique in nx.enumerate_all_cliques(graph))
         several = entry.solutions not in ("1", "1-")
         if triangles and not several:
             continue

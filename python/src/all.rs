@@ -21,22 +21,17 @@ enum Problem {
 /// place of a graph that has no verdict stands the error. Nothing is asked of one graph that is not
 /// asked of all.
 #[pyfunction]
-#[pyo3(signature = (
-    graphs, wanted, *, threads=None, time_limit=None, memory_limit=None, progress=None
-))]
+#[pyo3(signature = (graphs, wanted, *, threads=None))]
 pub(crate) fn decide_all(
     py: Python<'_>,
     graphs: Vec<Py<Graph>>,
     wanted: Wanted,
     threads: Option<usize>,
-    time_limit: Option<f64>,
-    memory_limit: Option<u64>,
-    progress: Option<Py<PyAny>>,
 ) -> PyResult<Vec<Py<PyAny>>> {
     let wanted = Arc::new(wanted);
     let inputs: Vec<Arc<NamedGraph>> = graphs.iter().map(|g| Arc::clone(&g.get().0)).collect();
     let told = Told::expecting("graphs", inputs.len() as u64);
-    let job = Job::within(py, (time_limit, memory_limit), progress, told)?.on(threads)?;
+    let job = Job::telling(py, told)?.on(threads)?;
     let (teller, stop, asked) = (job.told(), job.unobserved(), Arc::clone(&wanted));
     let decide = move |input: Arc<NamedGraph>| -> (Arc<NamedGraph>, Result<_, Problem>, Duration) {
         let start = Instant::now();

@@ -2,7 +2,7 @@
 
 use crate::errors::{FileError, InputError, of_any, of_deciding};
 use crate::graph::Graph;
-use crate::work::{self, Job, Told};
+use crate::work::{self, Job};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -238,11 +238,7 @@ impl Wanted {
 
 /// Decides a graph.
 #[pyfunction]
-#[pyo3(signature = (
-    graph, wanted, *, parts=None, displacements=None, vectors=None, one_frame=false, time_limit=None,
-    memory_limit=None, progress=None
-))]
-#[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
+#[pyo3(signature = (graph, wanted, *, parts=None, displacements=None, vectors=None, one_frame=false))]
 pub(crate) fn decide(
     py: Python<'_>,
     graph: &Graph,
@@ -251,12 +247,9 @@ pub(crate) fn decide(
     displacements: Option<Vec<Vec<u32>>>,
     vectors: Option<Vec<[String; 3]>>,
     one_frame: bool,
-    time_limit: Option<f64>,
-    memory_limit: Option<u64>,
-    progress: Option<Py<PyAny>>,
 ) -> PyResult<Decided> {
     let wrong = |error: &dyn std::fmt::Display| InputError::new_err(error.to_string());
-    let job = Job::within(py, (time_limit, memory_limit), progress, Told::default())?;
+    let job = Job::new(py)?;
     let nodes = graph.0.graph.nodes() as u32;
     let known = NamedParts::of_nodes(nodes, parts.unwrap_or_default());
     let known = known.map_err(|error| wrong(&format!("parts: {error}")))?;

@@ -3,72 +3,18 @@
 
 use crate::decided::bytes_of;
 use crate::errors::of_any;
-use crate::graph::{list_options, read_options};
+use crate::graph::Reading;
 use crate::work::Job;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use viewcert_check::Failure;
-use viewcert_cli::{
-    ListsAsked, MergeAsked, News, OverviewAsked, Terms, check_archive, of_tracks_alone,
-};
-use viewcert_formats::ReadOptions;
+use viewcert_cli::{ListsAsked, MergeAsked, News, OverviewAsked, Terms, check_archive};
 use viewcert_formats::folder::Listing;
 use viewcert_report::overview_page;
 use viewcert_session::Session;
 use viewcert_session::exit::TooLarge;
-
-/// How pairs and tracks of an input are read: a `dict` in Python.
-#[derive(FromPyObject)]
-#[pyo3(from_item_all)]
-pub(crate) struct Reading {
-    format: Option<String>,
-    variable: Option<String>,
-    pipeline: Option<String>,
-    min_inliers: Option<u32>,
-    min_views: Option<u32>,
-    max_spread: Option<u32>,
-    rigs: bool,
-    columns: Option<String>,
-    min_weight: Option<String>,
-    skip_loops: bool,
-}
-
-impl Reading {
-    /// The first option that is about tracks alone, if one is given.
-    fn of_tracks_alone(&self) -> Option<&'static str> {
-        of_tracks_alone(
-            self.min_views.is_some(),
-            self.max_spread.is_some(),
-            !self.rigs,
-        )
-    }
-
-    /// The options for pairs, and for tracks.
-    fn options(&self) -> PyResult<[ReadOptions; 2]> {
-        let of = |min_views| -> PyResult<ReadOptions> {
-            Ok(ReadOptions {
-                list: list_options(
-                    self.columns.as_deref(),
-                    self.min_weight.as_deref(),
-                    self.skip_loops,
-                )?,
-                ..read_options(
-                    self.format.as_deref(),
-                    self.variable.clone(),
-                    self.pipeline.as_deref(),
-                    self.min_inliers,
-                    min_views,
-                    self.max_spread,
-                    self.rigs,
-                )?
-            })
-        };
-        let views = viewcert_formats::TrackOptions::default().min_views;
-        Ok([of(None)?, of(Some(self.min_views.unwrap_or(views)))?])
-    }
-}
 
 /// What pairs and tracks of an input determine: `kind` is `json`, `text` or `html`.
 #[pyfunction]

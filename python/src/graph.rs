@@ -7,13 +7,16 @@ use numpy::{Element, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyList;
 use std::path::PathBuf;
+use std::str::FromStr;
 use std::sync::Arc;
 use viewcert::certificate::hex;
 use viewcert::graph::{Labels, sha256};
+use viewcert_cli::of_tracks_alone;
 use viewcert_formats::colmap::Pipeline;
 use viewcert_formats::{
     ListOptions, NamedGraph, ReadError, ReadOptions, TrackOptions, pairs, read_graphs,
 };
+use viewcert_report::scene::Scene;
 
 /// A graph with its labels and notes.
 #[pyclass(frozen, module = "viewcert._native")]
@@ -88,6 +91,12 @@ impl Graph {
     /// The pairs of node numbers, an array of shape (m, 2).
     fn pairs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<u32>>> {
         pair_array(py, self.0.graph.edges())
+    }
+
+    /// The graph as SVG.
+    fn picture(&self, py: Python<'_>) -> PyResult<String> {
+        let input = Arc::clone(&self.0);
+        work::run(py, move || Scene::plain(&input).svg(true))
     }
 }
 
@@ -229,40 +238,94 @@ fn graph(built: Result<NamedGraph, ReadError>) -> PyResult<Graph> {
     }
 }
 
-/// The graphs of a file, with another name for it where it is there for a moment only.
-#[pyfunction]
-#[pyo3(signature = (
-    path, *, name=None, format=None, variable=None, pipeline=None, min_inliers=None, min_views=None,
-    max_spread=None, rigs=true, columns=None, min_weight=None, skip_loops=false
-))]
-#[expect(clippy::too_many_arguments, reason = "keyword arguments of Python")]
-pub(crate) fn read(
-    py: Python<'_>,
-    path: PathBuf,
-    name: Option<String>,
-    format: Option<&str>,
+/// How pairs and tracks of a file are read: a `dict` in Python.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Reading {
+    format: Option<String>,
     variable: Option<String>,
-    pipeline: Option<&str>,
+    pipeline: Option<String>,
     min_inliers: Option<u32>,
     min_views: Option<u32>,
     max_spread: Option<u32>,
     rigs: bool,
-    columns: Option<&str>,
-    min_weight: Option<&str>,
+    columns: Option<String>,
+    min_weight: Option<String>,
     skip_loops: bool,
-) -> PyResult<Vec<Graph>> {
-    let options = ReadOptions {
-        list: list_options(columns, min_weight, skip_loops)?,
-        ..read_options(
-            format,
-            variable,
+}
+
+impl Reading {
+    /// The first option that is about tracks alone, if one is given.
+    pub(crate) fn of_tracks_alone(&self) -> Option<&'static str> {
+        of_tracks_alone(
+            self.min_views.is_some(),
+            self.max_spread.is_some(),
+            !self.rigs,
+        )
+    }
+
+    /// The options for pairs, and for tracks.
+    ///
+    /// # Errors
+    /// A word that is none of those that can be said.
+    pub(crate) fn options(&self) -> PyResult<[ReadOptions; 2]> {
+        let pipeline = match self.pipeline.as_deref() {
+            None => None,
+            Some("incremental") => Some(Pipeline::Incremental),
+            Some("global") => Some(Pipeline::Global),
+            Some(other) => return Err(wrong("pipeline", &format!("there is no {other:?}"))),
+        };
+        let pairs = ReadOptions {
+            format: parsed("format", self.format.as_deref())?,
+            variable: self.variable.clone(),
             pipeline,
-            min_inliers,
-            min_views,
-            max_spread,
-            rigs,
-        )?
-    };
+            min_inliers: self.min_inliers,
+            tracks: None,
+            list: ListOptions {
+                columns: parsed("columns", self.columns.as_deref())?,
+                min_weight: parsed("min_weight", self.min_weight.as_deref())?,
+                skip_loops: self.skip_loops,
+            },
+            only: None,
+        };
+        let default = TrackOptions::default();
+        let tracks = TrackOptions {
+            min_views: self.min_views.unwrap_or(default.min_views),
+            max_spread: self.max_spread.unwrap_or(default.max_spread),
+            rigs: self.rigs,
+        };
+        let tracks = ReadOptions {
+            tracks: Some(tracks),
+            ..pairs.clone()
+        };
+        Ok([pairs, tracks])
+    }
+}
+
+fn wrong(name: &str, why: &dyn std::fmt::Display) -> PyErr {
+    InputError::new_err(format!("{name}: {why}"))
+}
+
+/// What the text of an argument stands for.
+fn parsed<T: FromStr<Err: std::fmt::Display>>(
+    name: &str,
+    text: Option<&str>,
+) -> PyResult<Option<T>> {
+    let parsed = text.map(str::parse).transpose();
+    parsed.map_err(|error| wrong(name, &error))
+}
+
+/// The graphs of a file, with another name for it where it is there for a moment only.
+#[pyfunction]
+pub(crate) fn read(
+    py: Python<'_>,
+    path: PathBuf,
+    name: Option<String>,
+    tracks: bool,
+    reading: Reading,
+) -> PyResult<Vec<Graph>> {
+    let [of_pairs, of_tracks] = reading.options()?;
+    let options = if tracks { of_tracks } else { of_pairs };
     let shown = path.display().to_string();
     let called = |mut graph: NamedGraph| {
         if let Some(name) = &name {
@@ -279,56 +342,4 @@ pub(crate) fn read(
         Ok(graphs) => Ok(graphs.into_iter().map(called).collect()),
         Err(error) => Err(of_reading(&error)),
     }
-}
-
-/// The options of the readers; `min_views` asks for tracks.
-pub(crate) fn read_options(
-    format: Option<&str>,
-    variable: Option<String>,
-    pipeline: Option<&str>,
-    min_inliers: Option<u32>,
-    min_views: Option<u32>,
-    max_spread: Option<u32>,
-    rigs: bool,
-) -> PyResult<ReadOptions> {
-    let format = format.map(str::parse).transpose();
-    let pipeline = match pipeline {
-        None => None,
-        Some("incremental") => Some(Pipeline::Incremental),
-        Some("global") => Some(Pipeline::Global),
-        Some(other) => {
-            return Err(InputError::new_err(format!(
-                "pipeline={other:?}: the pipelines are incremental and global"
-            )));
-        }
-    };
-    Ok(ReadOptions {
-        format: format.map_err(|error| InputError::new_err(format!("format: {error}")))?,
-        variable,
-        pipeline,
-        min_inliers,
-        tracks: min_views.map(|min_views| TrackOptions {
-            min_views,
-            max_spread: max_spread.unwrap_or(TrackOptions::default().max_spread),
-            rigs,
-        }),
-        list: ListOptions::default(),
-        only: None,
-    })
-}
-
-/// The options of lists.
-pub(crate) fn list_options(
-    columns: Option<&str>,
-    min_weight: Option<&str>,
-    skip_loops: bool,
-) -> PyResult<ListOptions> {
-    let columns = columns.map(str::parse).transpose();
-    let min_weight = min_weight.map(str::parse).transpose();
-    Ok(ListOptions {
-        columns: columns.map_err(|error| InputError::new_err(format!("columns: {error}")))?,
-        min_weight: min_weight
-            .map_err(|error| InputError::new_err(format!("min_weight: {error}")))?,
-        skip_loops,
-    })
 }

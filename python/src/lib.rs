@@ -52,6 +52,8 @@ mod _native {
     use super::scenes::{drawing, witness};
     #[pymodule_export]
     use super::studies::{Claims, audit, audit_at_cameras, models, singular_value};
+    #[pymodule_export]
+    use super::work::{bytes_of, seconds_of};
 
     use super::*;
 

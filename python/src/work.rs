@@ -20,6 +20,7 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use viewcert::watch::{Limits, Observer, Reason, Stage, Watch};
+use viewcert_session::{MemoryLimit, TimeLimit};
 
 /// Time between two looks for signals.
 const TICK: Duration = Duration::from_millis(50);
@@ -47,29 +48,21 @@ impl Job {
     /// # Errors
     /// Limits that cannot be.
     pub(crate) fn new(py: Python<'_>) -> PyResult<Self> {
-        Self::within(py, (None, None), None, Told::default())
+        Self::telling(py, Told::default())
     }
 
-    /// The same, with the arguments of the call before that: seconds and bytes, a callback, and what is told
-    /// of the work beforehand.
+    /// The same, with what is told of the work beforehand.
     ///
     /// # Errors
     /// As there.
-    pub(crate) fn within(
-        py: Python<'_>,
-        (seconds, memory): (Option<f64>, Option<u64>),
-        progress: Option<Py<PyAny>>,
-        told: Told,
-    ) -> PyResult<Self> {
+    pub(crate) fn telling(py: Python<'_>, told: Told) -> PyResult<Self> {
         let around = py.import("viewcert._limits")?.getattr("around")?.call0()?;
-        let around: (Option<f64>, Option<u64>, Option<Py<PyAny>>) = around.extract()?;
-        let seconds = seconds.or(around.0);
+        let (seconds, memory, progress): (Option<f64>, Option<u64>, _) = around.extract()?;
         let time = seconds.map(Duration::try_from_secs_f64).transpose();
         let time = time.map_err(|_| {
             let seconds = seconds.unwrap_or_default();
             InputError::new_err(format!("time_limit={seconds}: give seconds, 0 or more"))
         })?;
-        let memory = memory.or(around.1);
         Ok(Self {
             threads: threads(py)?,
             watch: Watch::new(Limits {
@@ -77,7 +70,7 @@ impl Job {
                 memory: memory.or_else(viewcert_session::default_memory_limit),
             }),
             told: Arc::new(told),
-            progress: progress.or(around.2),
+            progress,
         })
     }
 
@@ -178,6 +171,20 @@ impl Job {
             }
         }
     }
+}
+
+/// The seconds of a limit such as `5m`, as the program takes it; nothing if it is none.
+#[pyfunction]
+pub(crate) fn seconds_of(text: &str) -> Option<f64> {
+    let limit: TimeLimit = text.parse().ok()?;
+    Some(limit.duration().as_secs_f64())
+}
+
+/// The bytes of a limit such as `2G`, likewise.
+#[pyfunction]
+pub(crate) fn bytes_of(text: &str) -> Option<u64> {
+    let limit: MemoryLimit = text.parse().ok()?;
+    Some(limit.bytes())
 }
 
 /// Work that nobody limits, and that Ctrl-C stops all the same.

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import FrozenSet, List, Tuple, Union
 
+import networkx as nx
 import numpy as np
 from numpy.typing import NDArray
 import viewcert
@@ -53,3 +54,15 @@ strings: viewcert.Graph[str] = viewcert.read("g.g6", format="graph6")  # type: i
 
 all_good: List[viewcert.Verdict[str]] = viewcert.verify_all([names])
 some_good: List[viewcert.Verdict[str]] = viewcert.verify_all([names], errors="return")  # type: ignore[assignment]
+
+# Graphs of networkx keep theirs (types-networkx).
+of_networkx: "nx.Graph[str]" = nx.Graph([("a", "b")])
+parts: List[FrozenSet[str]] = viewcert.verify(of_networkx).components
+no_parts: List[FrozenSet[int]] = viewcert.verify(of_networkx).components  # type: ignore[assignment]
+made: viewcert.Graph[str] = viewcert.Graph(of_networkx)
+inferred: List[str] = viewcert.Graph([("a", "b")]).nodes
+not_texts: List[int] = viewcert.Graph([("a", "b")]).nodes  # type: ignore[assignment]
+viewcert.verify(names, time_limit="5m", memory_limit="2G")
+viewcert.verify(names, planar="yes")  # type: ignore[call-overload]
+viewcert.overview("pairs.txt", rig=True)  # type: ignore[call-arg]
+viewcert.weakk(verdict)  # type: ignore[attr-defined]

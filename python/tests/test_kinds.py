@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import dataclasses
+import decimal
 from fractions import Fraction
 from typing import Any
 
 import networkx as nx
 import numpy as np
+import pandas as pd
 import pytest
 import rustworkx as rx
 import scipy.sparse
@@ -26,7 +28,6 @@ def kinds() -> dict[str, Any]:
     matrix = nx.to_scipy_sparse_array(graph, nodelist=range(4))
     return {
         "networkx": graph,
-        "networkx, directed": nx.DiGraph(PAIRS),
         "networkx, several edges": nx.MultiGraph(PAIRS),
         "rustworkx": rust,
         "array": array,
@@ -72,7 +73,7 @@ def test_nodes_come_back_as_they_went_in() -> None:
         [..., True, "", b"x"],
     ]
     for nodes in named:
-        for graph in (nx.Graph, nx.DiGraph, lambda pairs: pairs):
+        for graph in (nx.Graph, nx.MultiGraph, lambda pairs: pairs):
             pairs = [(nodes[i], nodes[j]) for i, j in PAIRS]
             verdict = viewcert.verify(graph(pairs))
             triangle, pair = verdict.components
@@ -127,6 +128,20 @@ def test_merged_pairs_are_noted() -> None:
 
 REFUSED: list[tuple[Any, str]] = [
     ([(0, float("nan")), (1, 2)], "a node is nan"),
+    ([(0, np.float32("nan")), (1, 2)], "a node is .*nan"),
+    ([("a", decimal.Decimal("nan"))], "a node is Decimal\\('NaN'\\)"),
+    ([("a", pd.NA)], "a node is <NA>"),
+    ([("a", pd.NaT)], "a node is NaT"),
+    ([("a", None)], "a node is None"),
+    ([("a", (1, float("nan")))], "a node is \\(1, nan\\)"),
+    (nx.Graph([("a", float("nan"))]), "a node is nan"),
+    (np.array([["a", None]], dtype=object), "a node is None"),
+    (pd.DataFrame({"a": ["x", "y"], "b": ["y", pd.NA]}), "is empty in row 1"),
+    (scipy.sparse.coo_array(np.array([[0, np.nan], [np.nan, 0]])), "an entry of the matrix is nan"),
+    (nx.DiGraph(PAIRS), "directed, .*graph.to_undirected\\(\\)"),
+    (nx.MultiDiGraph(PAIRS), "directed, .*graph.to_undirected\\(\\)"),
+    (nx.DiGraph(), "directed"),
+    (rx.generators.directed_path_graph(3), "directed, .*graph.to_undirected\\(\\)"),
     ([], "the graph is empty"),
     (nx.Graph(), "the graph is empty"),
     (np.empty((0, 2), dtype=int), "the graph is empty"),
@@ -174,8 +189,61 @@ def test_what_is_no_graph_is_refused(graph: Any, message: str) -> None:
         ({"time_limit": float("nan")}, "time_limit=nan: give seconds from 0 on"),
         ({"time_limit": "soon"}, "time_limit='soon': give seconds"),
         ({"memory_limit": -5}, "memory_limit=-5: give an integer from 0"),
+        ({"time_limit": "5 parsecs"}, "give seconds, a text such as '90s', '5m' or '1h', or None"),
+        ({"time_limit": True}, "time_limit=True: give seconds"),
+        ({"memory_limit": "much"}, "memory_limit='much': give bytes, a text such as '500M' or '2G'"),
+        ({"one_frame": "yes"}, "one_frame='yes': give True or False"),
+        ({"contraction": 1}, "contraction=1: give True or False"),
     ],
 )
 def test_options_that_cannot_be_used_are_refused(options: Any, message: str) -> None:
     with pytest.raises(viewcert.InputError, match=message):
         viewcert.verify(PAIRS, **options)
+
+
+def test_yes_and_no_are_bools_everywhere() -> None:
+    verdict = viewcert.verify(PAIRS)
+    places = {node: (node, node**2, node**3) for node in range(4)}
+    for ask in (
+        lambda: viewcert.read("pairs.txt", skip_loops="no"),  # type: ignore[call-overload]
+        lambda: viewcert.read("pairs.txt", tracks=1),  # type: ignore[call-overload]
+        lambda: viewcert.overview("pairs.txt", rigs="no"),  # type: ignore[arg-type]
+        lambda: viewcert.tracks_from_database("a.db", rigs="no"),  # type: ignore[arg-type]
+        lambda: verdict.certificate(compact="no"),  # type: ignore[arg-type]
+        lambda: verdict.to_dict(list_components=1),  # type: ignore[arg-type]
+        lambda: viewcert.check(verdict.certificate(), PAIRS, one_frame="no"),  # type: ignore[arg-type]
+        lambda: viewcert.catalog(5, necessary="no"),  # type: ignore[arg-type]
+        lambda: viewcert.witness(viewcert.examples.two_solutions(), full="no"),  # type: ignore[call-overload]
+        lambda: viewcert.rigidity_matrix(PAIRS, places, "N", exact="no"),  # type: ignore[call-overload]
+    ):
+        with pytest.raises(viewcert.InputError, match="=('no'|1): give True or False"):
+            ask()
+
+
+@pytest.mark.parametrize("limit", [60, 60.0, "60", "90s", "5m", "1h", np.float64(60)])
+def test_limits_of_time_are_what_the_program_takes(limit: Any) -> None:
+    assert viewcert.verify(PAIRS, time_limit=limit, memory_limit="2G").rank == 25
+    assert len(viewcert.verify_all([PAIRS, PAIRS], time_limit=limit)) == 2
+    assert viewcert.models(PAIRS, time_limit=limit)["affine"].model == "affine"
+    with viewcert.limits(time_limit=limit, memory_limit="500M"):
+        assert not viewcert.weak(viewcert.verify(PAIRS[:1]))
+    with pytest.raises(viewcert.TooLarge, match="time limit"):
+        viewcert.verify(nx.gnm_random_graph(3000, 8000, seed=1), time_limit="1ms")
+
+
+def test_directed_graphs_have_a_way_out() -> None:
+    for graph in (nx.DiGraph(PAIRS), nx.MultiDiGraph(PAIRS)):
+        assert viewcert.verify(graph.to_undirected()).rank == 25
+    assert viewcert.verify(rx.generators.directed_path_graph(3).to_undirected()).rank == 7 + 7
+
+
+def test_notebooks_show_pictures_and_tables() -> None:
+    graph = viewcert.Graph([("a<b", "c"), ("c", "d")], name="mine")
+    picture = graph._repr_svg_()
+    assert picture.startswith("<svg") and "mine: 3 cameras, 2 pairs" in picture and "a&lt;b" in picture
+    found = viewcert.suggest(graph)
+    assert isinstance(found, list) and found[0]._repr_html_().count("<tr>") == 2
+    table = found._repr_html_()  # type: ignore[attr-defined]
+    assert table.count("<tr>") == 1 + len(found) and "a&lt;b - d" in table and "<b" not in table
+    for verdict, row in zip(models := viewcert.models(graph), models._repr_html_().split("<tr>")[2:]):
+        assert f"<td>{verdict.value}</td>" in row and f"<td>{verdict.rank} of {verdict.required}</td>" in row

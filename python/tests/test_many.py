@@ -228,7 +228,6 @@ TRIPLE = [("a", "b"), ("b", "c"), ("c", "d")]
         Tensor(TRIPLE),
         Tensor(np.array(TRIPLE).T),
         nx.Graph(TRIPLE),
-        nx.DiGraph(TRIPLE),
         nx.MultiGraph(TRIPLE),
         tuple(map(list, TRIPLE)),
     ],

@@ -11,6 +11,20 @@ pub struct TimeLimit(Duration);
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MemoryLimit(u64);
 
+impl TimeLimit {
+    /// How long that is.
+    pub fn duration(self) -> Duration {
+        self.0
+    }
+}
+
+impl MemoryLimit {
+    /// How many bytes that is.
+    pub fn bytes(self) -> u64 {
+        self.0
+    }
+}
+
 /// What a run may take.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct RunLimits {

@@ -16,161 +16,27 @@ What was merged, ignored or guessed is a warning, of :class:`viewcert.NoteWarnin
 ``Verdict.notes``. ``logging.getLogger("viewcert")`` has a line for each verdict, at level DEBUG.
 """
 
-import logging as _logging
+from typing import TYPE_CHECKING
 
-from ._act import (
-    Break,
-    Explanation,
-    Export,
-    Implied,
-    Outside,
-    Suggestion,
-    Unused,
-    Weak,
-    explain,
-    export,
-    implied,
-    redundant,
-    suggest,
-    surplus,
-    weak,
-)
-from . import examples
-from ._all import verify_all
-from ._cameras import (
-    AtCameras,
-    FloatRuling,
-    SingularValue,
-    Special,
-    VerifiedAtCameras,
-    at_cameras,
-    check_at_cameras,
-)
-from ._catalog import (
-    Entry,
-    catalog,
-    from_label,
-    label,
-)
-from ._check import Verified, check
-from ._errors import Error, InputError, NoteWarning, Rejected, TooLarge, Undecided
-from ._errors import answering as _answering
-from ._files import Archive, ListedImages, Lists, Merge, NotVerified, Overview, check_all, lists, merge, overview
-from ._graph import (
-    Graph,
-    from_database,
-    read,
-    tracks_from_database,
-    tracks_from_reconstruction,
-)
-from ._intrinsics import (
-    Intrinsics,
-    Prior,
-    Priors,
-    VerifiedIntrinsics,
-    check_intrinsics,
-    intrinsics,
-)
-from ._limits import limits
-from ._mend import Mended, mend
-from ._matrices import ExactMatrix, rigidity_matrix
-from ._native import __version__
-from ._studies import (
-    Audit,
-    Change,
-    Models,
-    Ruling,
-    audit,
-    audit_claims,
-    models,
-)
-from ._verdict import BaseLines, Joint, Planar, Solutions, Verdict, verify
-from ._witness import Witness, fundamental_matrix, witness
+if TYPE_CHECKING:
+    from ._public import *
+    from ._public import __all__ as __all__
+else:
+    # NumPy and all that needs it come with the first name that is asked for: the programs start without.
 
-__all__ = [
-    "Archive",
-    "AtCameras",
-    "Audit",
-    "BaseLines",
-    "Break",
-    "Change",
-    "Entry",
-    "Error",
-    "ExactMatrix",
-    "Explanation",
-    "Export",
-    "FloatRuling",
-    "Graph",
-    "Implied",
-    "InputError",
-    "Intrinsics",
-    "Joint",
-    "ListedImages",
-    "Lists",
-    "Mended",
-    "Models",
-    "NotVerified",
-    "NoteWarning",
-    "Outside",
-    "Overview",
-    "Planar",
-    "Prior",
-    "Priors",
-    "Rejected",
-    "Ruling",
-    "SingularValue",
-    "Solutions",
-    "Special",
-    "Suggestion",
-    "TooLarge",
-    "Undecided",
-    "Unused",
-    "Verdict",
-    "Verified",
-    "VerifiedAtCameras",
-    "VerifiedIntrinsics",
-    "Weak",
-    "Witness",
-    "__version__",
-    "at_cameras",
-    "audit",
-    "audit_claims",
-    "catalog",
-    "check",
-    "check_all",
-    "check_at_cameras",
-    "check_intrinsics",
-    "examples",
-    "explain",
-    "export",
-    "from_database",
-    "from_label",
-    "fundamental_matrix",
-    "implied",
-    "intrinsics",
-    "label",
-    "limits",
-    "lists",
-    "mend",
-    "merge",
-    "models",
-    "overview",
-    "read",
-    "redundant",
-    "rigidity_matrix",
-    "suggest",
-    "surplus",
-    "tracks_from_database",
-    "tracks_from_reconstruction",
-    "verify",
-    "verify_all",
-    "weak",
-    "witness",
-]
+    def __getattr__(name):
+        if name == "examples":
+            from importlib import import_module
 
-for _name in __all__:
-    if callable(globals()[_name]):
-        globals()[_name] = _answering(globals()[_name])
+            return import_module(".examples", __name__)
+        if name.startswith("_") and name not in ("__all__", "__version__"):
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        from . import _public
 
-# Messages are for who asks for them.
-_logging.getLogger("viewcert").addHandler(_logging.NullHandler())
+        globals().update({word: getattr(_public, word) for word in ["__all__", *_public.__all__]})
+        if name not in globals():
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        return globals()[name]
+
+    def __dir__():
+        return sorted({*globals(), *__getattr__("__all__")})

@@ -5,77 +5,55 @@ from __future__ import annotations
 import json
 import os
 from dataclasses import dataclass
-from typing import Any, Dict, Generic, List, Optional, Sequence, Tuple, get_args, overload
+from typing import Annotated, Any, Dict, Generic, List, Optional, Sequence, Tuple, get_args, overload
 
-from ._arguments import listed, one_of, path_of, whole
+from ._answers import of_said
+from ._arguments import one_of, path_of, whole
 from ._errors import InputError
 from ._graph import Path, tracks_from_database
-from ._types import Lost, N, Strength, Value
+from ._tables import html_of
+from ._types import Lost, N, Other, Strength
 from ._verdict import Given, Verdict, verify
 
 
 @dataclass(frozen=True)
 class Weak(Generic[N]):
-    """A pair, or a node, without which a component falls apart.
+    """A pair, or a node, without which a component falls apart."""
 
-    Attributes
-    ----------
-    nodes : tuple
-        The two nodes of the pair, or the node.
-    component : int
-        Its place in `Verdict.components`.
-    why : str
-        In words.
-    strength : str
-        ``'proof'`` or ``'error-bound'``.
-    """
-
-    nodes: Tuple[N, ...]
-    component: int
-    why: str
-    strength: Strength
+    nodes: Annotated[Tuple[N, ...], "The two nodes of the pair, or the node."]
+    component: Annotated[int, "Its place in `Verdict.components`."]
+    why: Annotated[str, "In words."]
+    strength: Annotated[Strength, "``'proof'`` or ``'error-bound'``."]
 
 
 @dataclass(frozen=True)
 class Suggestion(Generic[N]):
-    """Pairs that join components if their images really overlap: that they do then is proved.
+    """Pairs that join components if their images really overlap: that they do then is proved."""
 
-    Attributes
-    ----------
-    pairs : tuple of pairs
-        All of them are needed for what is said here; fewer may be enough.
-    joins : tuple of int
-        The components that become one, as places in `Verdict.components`.
-    single_pairs : int
-        How many components of a single pair become part of it as well.
-    images : int
-        How many nodes are together then.
-    gain : int
-        How many these are more than in the largest component that is joined.
-    inliers, matches : tuple of int, optional
-        Of each pair, as far as a database knows.
-    tried : tuple of str, optional
-        What has become of matching each pair so far, as far as a database knows: ``'left-out'``,
-        ``'not-verified'``, ``'not-tried'`` or ``'used'``.
-    why : tuple of str
-        Why each pair is worth trying, in words: a guess.
-    frames : int
-        How many frames of rigs that no point holds to anything become part of it as well.
-    also : tuple of str
-        Further images at the places of the two, to be matched as well: of frames that are one camera.
-    """
+    pairs: Annotated[Tuple[Tuple[N, N], ...], "All of them are needed for what is said here; fewer may be enough."]
+    joins: Annotated[Tuple[int, ...], "The components that become one, as places in `Verdict.components`."]
+    single_pairs: Annotated[int, "How many components of a single pair become part of it as well."]
+    images: Annotated[int, "How many nodes are together then."]
+    gain: Annotated[int, "How many these are more than in the largest component that is joined."]
+    inliers: Annotated[Optional[Tuple[int, ...]], "How many inliers each pair has, as far as a database knows."]
+    matches: Annotated[Optional[Tuple[int, ...]], "How many matches."]
+    tried: Annotated[Optional[Tuple[str, ...]],
+        "What has become of matching each pair so far, as far as a database knows: ``'left-out'``, "
+        "``'not-verified'``, ``'not-tried'`` or ``'used'``.",
+    ]
+    why: Annotated[Tuple[str, ...], "Why each pair is worth trying, in words: a guess."]
+    frames: Annotated[int, "How many frames of rigs that no point holds to anything become part of it as well."] = 0
+    also: Annotated[Tuple[str, ...],
+        "Further images at the places of the two, to be matched as well: of frames that are one camera.",
+    ] = ()
 
-    pairs: Tuple[Tuple[N, N], ...]
-    joins: Tuple[int, ...]
-    single_pairs: int
-    images: int
-    gain: int
-    inliers: Optional[Tuple[int, ...]]
-    matches: Optional[Tuple[int, ...]]
-    tried: Optional[Tuple[str, ...]]
-    why: Tuple[str, ...]
-    frames: int = 0
-    also: Tuple[str, ...] = ()
+    def _row(self) -> List[str]:
+        pairs = ", ".join(f"{a} - {b}" for a, b in self.pairs)
+        joined = " + ".join(map(str, self.joins))
+        return [pairs, joined, str(self.images), f"+{self.gain}", "; ".join(self.why)]
+
+    def _repr_html_(self) -> str:
+        return _Suggestions([self])._repr_html_()
 
 
 @dataclass(frozen=True)
@@ -99,34 +77,20 @@ class Unused(Generic[N]):
 
 @dataclass(frozen=True)
 class Explanation(Generic[N]):
-    """Where a node is, and what it would need.
+    """Where a node is, and what it would need."""
 
-    Attributes
-    ----------
-    node
-        The node.
-    components : tuple of int
-        The components of more than a pair that hold it, as places in `Verdict.components`.
-    pairs_inside : int
-        How many of its pairs lie in these.
-    pairs_outside : tuple of Outside
-        Its other pairs.
-    unused : tuple of Unused
-        Pairs of the database that were not used.
-    suggestions : tuple of Suggestion
-        What would help to match.
-    sees : tuple of (int, int)
-        Of a graph of cameras and points: components, as places in `Verdict.components`, and how many
-        points of each it sees. An incremental mapper wants 30 to add an image.
-    """
-
-    node: N
-    components: Tuple[int, ...]
-    pairs_inside: int
-    pairs_outside: Tuple[Outside[N], ...]
-    unused: Tuple[Unused[N], ...]
-    suggestions: Tuple[Suggestion[N], ...]
-    sees: Tuple[Tuple[int, int], ...] = ()
+    node: Annotated[N, "The node."]
+    components: Annotated[Tuple[int, ...],
+        "The components of more than a pair that hold it, as places in `Verdict.components`.",
+    ]
+    pairs_inside: Annotated[int, "How many of its pairs lie in these."]
+    pairs_outside: Annotated[Tuple[Outside[N], ...], "Its other pairs."]
+    unused: Annotated[Tuple[Unused[N], ...], "Pairs of the database that were not used."]
+    suggestions: Annotated[Tuple[Suggestion[N], ...], "What would help to match."]
+    sees: Annotated[Tuple[Tuple[int, int], ...],
+        "Of a graph of cameras and points: components, as places in `Verdict.components`, and how many points of "
+        "each it sees. An incremental mapper wants 30 to add an image.",
+    ] = ()
 
 
 @dataclass(frozen=True)
@@ -153,28 +117,14 @@ class Break:
 
 @dataclass(frozen=True)
 class Implied(Generic[N]):
-    """Pairs that are determined though they are not in the graph, up to finitely many values.
+    """Pairs that are determined though they are not in the graph, up to finitely many values."""
 
-    Attributes
-    ----------
-    count : int
-        How many there are; of a camera-point graph pairs of cameras.
-    beyond_components : int
-        How many of them no component holds.
-    pairs : tuple
-        The first of them.
-    unique : bool
-        Whether each is proved to have one value. Otherwise to add one may leave fewer solutions.
-    strength, complete : str
-        How strong it is that these are determined, and that no others are.
-    """
-
-    count: int
-    beyond_components: int
-    pairs: Tuple[Tuple[N, N], ...]
-    unique: bool
-    strength: Strength
-    complete: Strength
+    count: Annotated[int, "How many there are; of a camera-point graph pairs of cameras."]
+    beyond_components: Annotated[int, "How many of them no component holds."]
+    pairs: Annotated[Tuple[Tuple[N, N], ...], "The first of them."]
+    unique: Annotated[bool, "Whether each is proved to have one value. Otherwise to add one may leave fewer solutions."]
+    strength: Annotated[Strength, "How strong it is that these are determined."]
+    complete: Annotated[Strength, "How strong it is that no others are."]
 
 
 def _decided(verdict: Any) -> Verdict[Any]:
@@ -191,14 +141,10 @@ def _places(components: Sequence[int]) -> Tuple[int, ...]:
     return tuple(component - 1 for component in components)
 
 
-def _known(numbers: Optional[Sequence[int]]) -> Optional[Tuple[int, ...]]:
-    return None if numbers is None else tuple(numbers)
-
-
 @overload
 def weak(verdict: Given[N], of: Lost = ...) -> List[Weak[N]]: ...
 @overload
-def weak(verdict: Any, of: Lost = ...) -> List[Weak[Any]]: ...
+def weak(verdict: Other, of: Lost = ...) -> List[Weak[Any]]: ...
 def weak(verdict: Any, of: Lost = "pairs") -> List[Weak[Any]]:
     """The pairs without any one of which a component falls apart, that is, is not finite solvable.
 
@@ -228,12 +174,7 @@ def weak(verdict: Any, of: Lost = "pairs") -> List[Weak[Any]]:
     verdict = _decided(verdict)
     by_text = verdict.graph._by_text()
     return [
-        Weak(
-            nodes=tuple(by_text[text] for text in item["images"]),
-            component=item["component"] - 1,
-            why=item["why"],
-            strength=item["strength"],
-        )
+        of_said(Weak, item, nodes=tuple(by_text[text] for text in item["images"]), component=item["component"] - 1)
         for item in _asked(verdict, "weak", weak=of)["items"]
     ]
 
@@ -241,7 +182,7 @@ def weak(verdict: Any, of: Lost = "pairs") -> List[Weak[Any]]:
 @overload
 def surplus(verdict: Given[N]) -> Dict[Tuple[N, N], Dict[str, Any]]: ...
 @overload
-def surplus(verdict: Any) -> Dict[Tuple[Any, Any], Dict[str, Any]]: ...
+def surplus(verdict: Other) -> Dict[Tuple[Any, Any], Dict[str, Any]]: ...
 def surplus(verdict: Any) -> Dict[Tuple[Any, Any], Dict[str, Any]]:
     """In how many of its equations the rest of the graph checks each pair.
 
@@ -315,11 +256,7 @@ def redundant(verdict: Any, of: Lost = "pairs") -> List[Break]:
         return tuple(by_text[text] for text in texts) if of == "pairs" else by_text[texts[0]]
 
     return [
-        Break(
-            component=one["component"] - 1,
-            without=tuple(named(texts) for texts in one["without"]),
-            strength=one["strength"],
-        )
+        of_said(Break, one, component=one["component"] - 1, without=tuple(named(texts) for texts in one["without"]))
         for one in found["broken"]
     ]
 
@@ -327,7 +264,7 @@ def redundant(verdict: Any, of: Lost = "pairs") -> List[Break]:
 @overload
 def implied(verdict: Given[N], most: int = ...) -> Implied[N]: ...
 @overload
-def implied(verdict: Any, most: int = ...) -> Implied[Any]: ...
+def implied(verdict: Other, most: int = ...) -> Implied[Any]: ...
 def implied(verdict: Any, most: int = 1000) -> Implied[Any]:
     """The pairs that are determined though they are not in the graph, up to finitely many values.
 
@@ -349,39 +286,30 @@ def implied(verdict: Any, most: int = 1000) -> Implied[Any]:
     verdict = _decided(verdict)
     by_text = verdict.graph._by_text()
     found = _asked(verdict, "implied", implied=most)
-    return Implied(
-        count=found["count"],
-        beyond_components=found["beyond_components"],
-        pairs=tuple((by_text[a], by_text[b]) for a, b in found["pairs"]),
-        unique=found["unique"],
-        strength=found["strength"],
-        complete=found["complete"],
-    )
+    return of_said(Implied, found, pairs=tuple((by_text[a], by_text[b]) for a, b in found["pairs"]))
+
+
+class _Suggestions(List[Suggestion[N]]):
+    """A list that a notebook shows as a table."""
+
+    def _repr_html_(self) -> str:
+        names = ["match", "joins", "images", "gain", "why"]
+        return html_of(names, [one._row() for one in self])
 
 
 def _suggestions(found: List[Dict[str, Any]], by_text: Dict[str, Any]) -> List[Suggestion[Any]]:
-    return [
-        Suggestion(
-            pairs=tuple((by_text[a], by_text[b]) for a, b in one["pairs"]),
-            joins=_places(one["joins"]),
-            single_pairs=one["single_pairs"],
-            images=one["images"],
-            gain=one["gain"],
-            inliers=_known(one["inliers"]),
-            matches=_known(one["matches"]),
-            tried=None if one["tried"] is None else tuple(one["tried"]),
-            why=tuple(one["why"]),
-            frames=one.get("frames", 0),
-            also=tuple(one.get("also", ())),
+    return _Suggestions(
+        of_said(
+            Suggestion, one, pairs=tuple((by_text[a], by_text[b]) for a, b in one["pairs"]), joins=_places(one["joins"])
         )
         for one in found
-    ]
+    )
 
 
 @overload
 def suggest(verdict: Given[N], most: int = ...) -> List[Suggestion[N]]: ...
 @overload
-def suggest(verdict: Any, most: int = ...) -> List[Suggestion[Any]]: ...
+def suggest(verdict: Other, most: int = ...) -> List[Suggestion[Any]]: ...
 def suggest(verdict: Any, most: int = 10) -> List[Suggestion[Any]]:
     """Pairs that join components if their images really overlap, the most promising first: that is what is
     proved. `Suggestion.why` says why each is named. A pair that was matched with too little coming of it is not.
@@ -414,7 +342,7 @@ def suggest(verdict: Any, most: int = 10) -> List[Suggestion[Any]]:
 @overload
 def explain(verdict: Given[N], node: N) -> Explanation[N]: ...
 @overload
-def explain(verdict: Any, node: Any) -> Explanation[Any]: ...
+def explain(verdict: Other, node: Any) -> Explanation[Any]: ...
 def explain(verdict: Any, node: Any) -> Explanation[Any]:
     """Explains a node: its components, its pairs, what it would need.
 
@@ -451,10 +379,11 @@ def explain(verdict: Any, node: Any) -> Explanation[Any]:
         Unused(by_text[pair["image"]], pair["inliers"], pair["matches"])
         for pair in found["unused"]
     )
-    return Explanation(
+    return of_said(
+        Explanation,
+        found,
         node=by_text[found["image"]],
         components=_places(found["components"]),
-        pairs_inside=found["pairs_inside"],
         pairs_outside=tuple(outside),
         unused=tuple(unused),
         suggestions=tuple(_suggestions(found["suggestions"], by_text)),
@@ -465,7 +394,7 @@ def explain(verdict: Any, node: Any) -> Explanation[Any]:
 @overload
 def export(verdict: Given[N], folder: Path) -> Export[N]: ...
 @overload
-def export(verdict: Any, folder: Path) -> Export[Any]: ...
+def export(verdict: Other, folder: Path) -> Export[Any]: ...
 def export(verdict: Any, folder: Path) -> Export[Any]:
     """Writes the components to a folder, as COLMAP takes them: lists of images and pairs for each,
     tables of components, images and joints.
@@ -482,15 +411,25 @@ def export(verdict: Any, folder: Path) -> Export[Any]:
     ------
     InputError
         If something else is in the folder, or COLMAP's lists cannot hold a name.
+
+    Examples
+    --------
+    >>> import pathlib, tempfile, viewcert
+    >>> folder = pathlib.Path(tempfile.mkdtemp()) / "parts"
+    >>> found = viewcert.export([("a", "b"), ("a", "c"), ("b", "c"), ("c", "d")], folder)
+    >>> found.components, found.outside
+    (1, 1)
+    >>> (folder / "components/001/images.txt").read_text().split()
+    ['a', 'b', 'c']
     """
     if isinstance(verdict, (str, os.PathLike)):
         verdict = tracks_from_database(verdict)
     verdict = _decided(verdict)
     found = _asked(verdict, "export", export=path_of("folder", folder))
     by_text = verdict.graph._by_text()
-    return Export(
-        folder=found["folder"],
-        components=found["components"],
+    return of_said(
+        Export,
+        found,
         shared=tuple(by_text[text] for text in found["shared_images"]),
         outside=found["outside"],
         commands=tuple(tuple(commands) for commands in found["commands"]),

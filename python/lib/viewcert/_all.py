@@ -5,12 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Iterable, List, Literal, Optional, Tuple, Union, get_args, overload
 
 from . import _native
-from ._arguments import limits, one_of, whole_if
+from ._arguments import one_of, taking, whole_if
 from ._errors import Error, InputError
 from ._graph import Graph, as_graph
-from ._progress import Progress, shown
-from ._question import chosen_model, wanted
-from ._types import Asked, Counting, Errors, Model, N
+from ._question import asked, chosen_model, of_pairs
+from ._types import Errors, N, Other, Question
 from ._verdict import Given, Verdict
 
 if TYPE_CHECKING:
@@ -19,38 +18,23 @@ if TYPE_CHECKING:
 
 @overload
 def verify_all(
-    graphs: Iterable[Given[N]], *, errors: Literal["raise"] = ..., threads: Optional[int] = ..., **asked: Unpack[Asked]
+    graphs: Iterable[Given[N]], *, errors: Literal["raise"] = ..., threads: Optional[int] = ..., **question: Unpack[Question]
 ) -> List[Verdict[N]]: ...
 @overload
 def verify_all(
-    graphs: Iterable[Given[N]], *, errors: Literal["return"], threads: Optional[int] = ..., **asked: Unpack[Asked]
+    graphs: Iterable[Given[N]], *, errors: Literal["return"], threads: Optional[int] = ..., **question: Unpack[Question]
 ) -> List[Union[Verdict[N], Error]]: ...
 @overload
 def verify_all(
-    graphs: Iterable[Any], *, errors: Literal["raise"] = ..., threads: Optional[int] = ..., **asked: Unpack[Asked]
+    graphs: Iterable[Other], *, errors: Literal["raise"] = ..., threads: Optional[int] = ..., **question: Unpack[Question]
 ) -> List[Verdict[Any]]: ...
 @overload
 def verify_all(
-    graphs: Iterable[Any], *, errors: Literal["return"], threads: Optional[int] = ..., **asked: Unpack[Asked]
+    graphs: Iterable[Other], *, errors: Literal["return"], threads: Optional[int] = ..., **question: Unpack[Question]
 ) -> List[Union[Verdict[Any], Error]]: ...
+@taking(Question, asked)
 def verify_all(
-    graphs: Iterable[Any],
-    *,
-    model: Optional[Model] = None,
-    seed: int = 1,
-    planar: bool = False,
-    solutions: Optional[Counting] = "quick",
-    rational: bool = False,
-    numerator: int = 9,
-    denominator: int = 4,
-    prime: Optional[int] = None,
-    contraction: bool = True,
-    counting: bool = True,
-    errors: Errors = "raise",
-    threads: Optional[int] = None,
-    time_limit: Optional[float] = None,
-    memory_limit: Optional[int] = None,
-    progress: Progress = None,
+    graphs: Iterable[Any], *, errors: Errors = "raise", threads: Optional[int] = None, **question: Unpack[Question]
 ) -> Any:
     """Decides many graphs side by side: what :func:`verify` says of each, at the program's rate.
 
@@ -58,19 +42,14 @@ def verify_all(
     ----------
     graphs : iterable
         Of what :func:`verify` takes. All are held in memory.
-    model, seed, planar, solutions, rational, numerator, denominator, prime, contraction, counting
-        As of :func:`verify`, for all of them.
     errors : {'raise', 'return'}
         Whether a graph that cannot be decided is an error of the whole, or stands as an exception in
         its place.
     threads : int, optional
         How many graphs are decided at a time; by default as many as there are cores.
-    time_limit : float, optional
-        For all of them together, in seconds. What is not decided by then is :class:`TooLarge`.
-    memory_limit : int, optional
-        In bytes, for the large matrices of all threads together.
-    progress : callable or bool, optional
-        As of :func:`verify`; it counts graphs.
+    **question
+        What is asked of all of them, as of :func:`verify`. `time_limit` and `memory_limit` are for all of them together:
+        what is not decided by then is :class:`TooLarge`. `progress` counts graphs.
 
     Returns
     -------
@@ -93,22 +72,10 @@ def verify_all(
     """
     one_of("errors", errors, get_args(Errors))
     count = whole_if("threads", threads, 1, 4096)
-    seconds, memory = limits(time_limit, memory_limit)
-    asked = wanted(
-        model or "projective",
-        seed=seed,
-        planar=planar,
-        solutions=solutions,
-        rational=rational,
-        numerator=numerator,
-        denominator=denominator,
-        prime=prime,
-        contraction=contraction,
-        counting=counting,
-    )
+    wanted, within = asked(**question)
     if isinstance(graphs, (Graph, Verdict, str)) or hasattr(graphs, "edges"):
         raise InputError("graphs: give a list of graphs, also of one")
-    tracks = {**asked, "model": "calibrated"}
+    model, tracks = question.get("model"), {**wanted, "model": "calibrated"}
     found: List[Any] = []
     # Camera-point graphs are calibrated: by the question that is asked of them.
     pairs: List[Tuple[int, Graph[Any]]] = []
@@ -125,24 +92,15 @@ def verify_all(
         else:
             (pairs if given.cameras is None else points).append((place, given))
     if errors == "return" or not any(found):
-        with shown(progress) as callback:
-            for question, given_all in ((asked, pairs), (tracks, points)):
+        with within:
+            for each, given_all in ((wanted, pairs), (tracks, points)):
                 if not given_all:
                     continue
-                decided = _native.decide_all(
-                    [given._native for _, given in given_all],
-                    question,
-                    threads=count,
-                    time_limit=seconds,
-                    memory_limit=memory,
-                    progress=callback,
-                )
-                kept = {"wanted": question, "parts": None, "displacements": None, "vectors": None, "one_frame": False}
+                decided = _native.decide_all([given._native for _, given in given_all], each, threads=count)
                 for (place, given), native in zip(given_all, decided):
-                    if isinstance(native, Exception):
-                        found[place] = native
-                    else:
-                        found[place] = Verdict._of(given, native, kept)
+                    found[place] = native
+                    if not isinstance(native, Exception):
+                        found[place] = Verdict._of(given, native, of_pairs(each))
     for place, verdict in enumerate(found):
         if isinstance(verdict, Error):
             named = _named(verdict, place)

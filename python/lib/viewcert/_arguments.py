@@ -2,11 +2,32 @@
 
 from __future__ import annotations
 
+import inspect
 import operator
 import os
-from typing import Any, Iterable, List, Optional, Tuple
+from typing import Any, Callable, Iterable, List, Optional, Tuple, TypeVar
 
+from . import _native
 from ._errors import InputError
+
+_T = TypeVar("_T", bound=Callable[..., Any])
+
+
+def taking(words: Any, source: Callable[..., Any]) -> Callable[[_T], _T]:
+    """Gives a function with ``**options`` the keywords of a TypedDict in its signature, with the defaults of `source`."""
+
+    def named(function: _T) -> _T:
+        own = inspect.signature(function)
+        mine = [one for one in own.parameters.values() if one.kind is not one.VAR_KEYWORD]
+        more = [
+            one
+            for name, one in inspect.signature(source).parameters.items()
+            if name in words.__annotations__ and name not in own.parameters
+        ]
+        function.__signature__ = own.replace(parameters=[*mine, *more])  # type: ignore[attr-defined]
+        return function
+
+    return named
 
 
 def whole(what: str, value: Any, least: int, most: int) -> int:
@@ -89,19 +110,25 @@ def one_of(what: str, value: Any, words: Iterable[str]) -> None:
 
 
 def limits(time_limit: Any, memory_limit: Any) -> Tuple[Optional[float], Optional[int]]:
-    """Limits of time and memory.
+    """Limits of time and memory, as seconds and bytes; texts as the program takes them.
 
     Raises
     ------
     InputError
         If they are negative, or no numbers.
     """
-    seconds = time_limit
+    seconds, memory = time_limit, memory_limit
     if seconds is not None:
         try:
-            seconds = float(seconds)
+            seconds = _native.seconds_of(seconds) if isinstance(seconds, str) else float(seconds)
         except (TypeError, ValueError):
-            raise InputError(f"time_limit={time_limit!r}: give seconds, or None") from None
+            seconds = None
+        if seconds is None or isinstance(time_limit, bool):
+            raise InputError(f"time_limit={time_limit!r}: give seconds, a text such as '90s', '5m' or '1h', or None")
         if not 0 <= seconds < 2.0**60:
             raise InputError(f"time_limit={time_limit!r}: give seconds from 0 on, or None")
-    return seconds, whole_if("memory_limit", memory_limit, 0, 2**64 - 1)
+    if isinstance(memory, str):
+        memory = _native.bytes_of(memory)
+        if memory is None:
+            raise InputError(f"memory_limit={memory_limit!r}: give bytes, a text such as '500M' or '2G', or None")
+    return seconds, whole_if("memory_limit", memory, 0, 2**64 - 1)

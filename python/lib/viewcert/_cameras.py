@@ -10,18 +10,19 @@ import sys
 from dataclasses import dataclass, field
 from decimal import Decimal
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Annotated, Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _native
 from ._act import _decided
-from ._arguments import listed, whole_if
-from ._check import of_native, text_of
+from ._answers import of_native, of_said
+from ._arguments import flag, listed, whole_if
+from ._check import text_of
 from ._convert import Node
 from ._errors import InputError, Rejected
 from ._graph import Graph, Path, as_graph, on_disk
-from ._kept import Kept
+from ._pickled import found_of
 from ._tables import csv_of
 from ._types import Decided, Place, RulingWord, Strength
 from ._verdict import Verdict
@@ -38,44 +39,20 @@ _Velocity = Tuple[Fraction, Fraction, Fraction]
 
 @dataclass(frozen=True)
 class VerifiedAtCameras:
-    """What a certificate at given cameras proves. It can be pickled and compared.
+    """What a certificate at given cameras proves. It can be pickled and compared."""
 
-    Attributes
-    ----------
-    determined : bool
-        Whether the cameras are determined.
-    strength : {'proof', 'error-bound'}
-        How strong that and the rank are; that they are determined is always proved.
-    error_log2 : int, optional
-        The chance of an error is at most two to this power.
-    rank, required : int
-        The rank at these cameras, and the rank that determines.
-    components : int
-        How many components there are at these cameras.
-    model : str
-        The question: ``'projective'``, ``'calibrated'`` or ``'affine'``.
-    centres_sha256 : str
-        The hash of the centres, as :attr:`AtCameras.centres_sha256`.
-    nodes, edges : int
-        Of the graph.
-    sha256 : str
-        Its hash.
-    text : str
-        All of it in words.
-    """
-
-    determined: bool
-    strength: Strength
-    error_log2: Optional[int]
-    rank: int
-    required: int
-    components: int
-    model: Decided
-    centres_sha256: str
-    nodes: int
-    edges: int
-    sha256: str
-    text: str = field(repr=False)
+    determined: Annotated[bool, "Whether the cameras are determined."]
+    strength: Annotated[Strength, "How strong that and the rank are; that they are determined is always proved."]
+    error_log2: Annotated[Optional[int], "The chance of an error is at most two to this power."]
+    rank: Annotated[int, "The rank at these cameras."]
+    required: Annotated[int, "The rank that determines."]
+    components: Annotated[int, "How many components there are at these cameras."]
+    model: Annotated[Decided, "The question: ``'projective'``, ``'calibrated'`` or ``'affine'``."]
+    centres_sha256: Annotated[str, "The hash of the centres, as :attr:`AtCameras.centres_sha256`."]
+    nodes: Annotated[int, "How many nodes the graph has."]
+    edges: Annotated[int, "How many pairs."]
+    sha256: Annotated[str, "Its hash."]
+    text: Annotated[str, "All of it in words."] = field(repr=False)
 
     def __repr__(self) -> str:
         size = f"{self.nodes} nodes, {self.edges} pairs"
@@ -85,125 +62,66 @@ class VerifiedAtCameras:
 
 @dataclass(frozen=True)
 class Special:
-    """Cameras in a special place.
+    """Cameras in a special place."""
 
-    Attributes
-    ----------
-    place : {'coincident', 'collinear', 'coplanar'}
-        Whether their centres are at one place, on one line, or in one plane.
-    nodes : frozenset
-        The cameras.
-    """
-
-    place: Place
-    nodes: frozenset[Node]
+    place: Annotated[Place, "Whether their centres are at one place, on one line, or in one plane."]
+    nodes: Annotated[frozenset[Node], "The cameras."]
 
 
 @dataclass(frozen=True)
 class SingularValue:
-    """Two fractions between which a singular value lies, equal if it is zero.
+    """Two fractions between which a singular value lies, equal if it is zero."""
 
-    Attributes
-    ----------
-    matrix : str
-        Of which matrix.
-    place : int
-        Its number, from the smallest on: one more than the dimension of the trivial motions.
-    least, most : Fraction
-        The bounds.
-    """
-
-    matrix: str
-    place: int
-    least: Fraction
-    most: Fraction
+    matrix: Annotated[str, "Of which matrix."]
+    place: Annotated[int, "Its number, from the smallest on: one more than the dimension of the trivial motions."]
+    least: Annotated[Fraction, "Its lower bound."]
+    most: Annotated[Fraction, "Its upper bound."]
 
 
 @dataclass(frozen=True)
 class FloatRuling:
-    """What is so of one row of floating-point results.
+    """What is so of one row of floating-point results."""
 
-    Attributes
-    ----------
-    row : int
-        Its number, from 1.
-    name : str, optional
-        What the row calls itself.
-    ruling : {'confirmed', 'refuted', 'not decidable'}
-        What came of it.
-    reason : str
-        Why, in words.
-    sigma : tuple of str, optional
-        Two decimals between which the singular value is, if the row claims one.
-    text : str
-        All of it in words.
-    """
-
-    row: int
-    name: Optional[str]
-    ruling: RulingWord
-    reason: str
-    sigma: Optional[Tuple[str, str]]
-    text: str = field(repr=False)
+    row: Annotated[int, "Its number, from 1."]
+    name: Annotated[Optional[str], "What the row calls itself."]
+    ruling: Annotated[RulingWord, "What came of it."]
+    reason: Annotated[str, "Why, in words."]
+    sigma: Annotated[Optional[Tuple[str, str]],
+        "Two decimals between which the singular value is, if the row claims one.",
+    ]
+    text: Annotated[str, "All of it in words."] = field(repr=False)
 
     @staticmethod
     def of(said: Dict[str, Any], text: str) -> FloatRuling:
         """What the native part says."""
         sigma = said["sigma"]
-        return FloatRuling(
-            row=said["row"],
-            name=said["name"],
-            ruling=said["ruling"],
-            reason=said["reason"],
-            sigma=None if sigma is None else (sigma["least"], sigma["most"]),
-            text=text,
-        )
+        return of_said(FloatRuling, said, sigma=sigma and (sigma["least"], sigma["most"]), text=text)
 
 
 @dataclass(frozen=True)
 class AtCameras:
-    """What a graph determines at given cameras. It can be pickled and compared.
+    """What a graph determines at given cameras. It can be pickled and compared."""
 
-    Attributes
-    ----------
-    determined : bool
-        Whether the cameras are determined there. That they are is proved.
-    means : str
-        What that says of the cameras, in words: that they are the only ones, that they are an isolated
-        solution, that they have a motion of first order, or that there are infinitely many.
-    degenerate : bool
-        Whether the rank is smaller than that of cameras in general position.
-    strength : {'proof', 'error-bound'}
-        How strong the rank is.
-    error_log2 : int, optional
-        The chance of an error is at most two to this power.
-    rank, required : int
-        The rank at these cameras, and the rank that determines.
-    motions : int
-        The dimension of the motions that leave all fundamental matrices as they are.
-    components : tuple of frozenset
-        Nodes of the maximal parts that are rigid at these cameras, the largest first.
-    components_strength : {'proof', 'error-bound'}
-        How strong these are.
-    special : tuple of Special
-        Cameras at one place, on one line or in one plane, the largest sets of each kind first. Lines are
-        looked for among up to 2,000 places, planes among up to 64; one that holds all is always found.
-    centres_sha256 : str
-        The hash of the centres, which certificates name.
-    """
-
-    determined: bool
-    means: str
-    degenerate: bool
-    strength: Strength
-    error_log2: Optional[int]
-    rank: int
-    required: int
-    motions: int
-    components: Tuple[frozenset[Node], ...]
-    components_strength: Strength
-    special: Tuple[Special, ...]
-    centres_sha256: str
+    determined: Annotated[bool, "Whether the cameras are determined there. That they are is proved."]
+    means: Annotated[str,
+        "What that says of the cameras, in words: that they are the only ones, that they are an isolated solution, "
+        "that they have a motion of first order, or that there are infinitely many.",
+    ]
+    degenerate: Annotated[bool, "Whether the rank is smaller than that of cameras in general position."]
+    strength: Annotated[Strength, "How strong the rank is."]
+    error_log2: Annotated[Optional[int], "The chance of an error is at most two to this power."]
+    rank: Annotated[int, "The rank at these cameras."]
+    required: Annotated[int, "The rank that determines."]
+    motions: Annotated[int, "The dimension of the motions that leave all fundamental matrices as they are."]
+    components: Annotated[Tuple[frozenset[Node], ...],
+        "Nodes of the maximal parts that are rigid at these cameras, the largest first.",
+    ]
+    components_strength: Annotated[Strength, "How strong these are."]
+    special: Annotated[Tuple[Special, ...],
+        "Cameras at one place, on one line or in one plane, the largest sets of each kind first. Lines are looked "
+        "for among up to 2,000 places, planes among up to 64; one that holds all is always found.",
+    ]
+    centres_sha256: Annotated[str, "The hash of the centres, which certificates name."]
     _verdict: Verdict[Any] = field(repr=False, compare=False)
     _cameras: Tuple[Tuple[str, ...], int] = field(repr=False, compare=False)
 
@@ -234,7 +152,7 @@ class AtCameras:
         embed_graph : bool
             Whether a graph of more than 100 nodes is part of it; smaller ones always are.
         """
-        return self._at().certificate(embed_graph=embed_graph)
+        return self._at().certificate(embed_graph=flag("embed_graph", embed_graph))
 
     def velocities(self) -> Optional[List[Dict[Node, Optional[_Velocity]]]]:
         """A basis of the motions that the fundamental matrices allow, exactly.
@@ -421,7 +339,9 @@ def at_cameras(verdict: Any, cameras: Cameras) -> AtCameras:
     answer = json.loads(native.report("json", list_components=True))["at_cameras"]
     nodes, by_text = verdict.graph.nodes, verdict.graph._by_text()
     texts, width = at.numbers()
-    found = AtCameras(
+    found = of_said(
+        AtCameras,
+        answer,
         components=tuple(
             frozenset(by_text[text] for text in component["labels"]) for component in answer["components"]
         ),
@@ -429,20 +349,6 @@ def at_cameras(verdict: Any, cameras: Cameras) -> AtCameras:
         special=tuple(Special(place, frozenset(nodes[k] for k in of)) for place, of in native.special()),
         _verdict=verdict,
         _cameras=(tuple(texts), width),
-        **{
-            name: answer[name]
-            for name in (
-                "determined",
-                "means",
-                "degenerate",
-                "strength",
-                "error_log2",
-                "rank",
-                "motions",
-                "components_strength",
-                "centres_sha256",
-            )
-        },
     )
     found.__dict__["_found"] = native
     return found
@@ -517,8 +423,7 @@ def check_at_cameras(
 
 
 def _there(verdict: Verdict[Any], cameras: _native.Cameras) -> _native.AtCameras:
-    native = verdict._native
-    return _native.AtCameras(native.again() if isinstance(native, Kept) else native, cameras)
+    return _native.AtCameras(found_of(verdict._native), cameras)
 
 
 def _is(determined: bool, strength: Strength) -> str:

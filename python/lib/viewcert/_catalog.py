@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, Iterator, Optional, cast
+from typing import Annotated, Any, Iterator, Optional, cast
 
 from . import _native
-from ._arguments import whole, whole_if
+from ._arguments import flag, whole, whole_if
 from ._errors import TooLarge
 from ._graph import as_graph
 from ._types import Value
@@ -14,43 +14,21 @@ from ._types import Value
 
 @dataclass(frozen=True)
 class Entry:
-    """A graph of the catalog with its verdict.
+    """A graph of the catalog with its verdict."""
 
-    Attributes
-    ----------
-    graph6 : str
-        The graph; ``networkx.from_graph6_bytes(entry.graph6.encode())`` reads it.
-    value : str
-        As `Verdict.value`.
-    strength : str
-        ``'proof'``, or ``'2^e'``: an error bound.
-    rank : int
-        The generic rank.
-    rank_strength : str
-        As `strength`.
-    components : int
-        The number of maximal components.
-    components_strength : str
-        As `strength`.
-    hub : bool
-        Whether the refutation takes a hub.
-    solutions : str
-        How many solutions there are, or bounds as in ``'1-2'`` and ``'1-'``; empty if there are
-        infinitely many. Without ``solutions=True`` what bodies show: ``'1'`` or ``'1-'``.
-    certificate : bytes
-        For :func:`check`.
-    """
-
-    graph6: str
-    value: Value
-    strength: str
-    rank: int
-    rank_strength: str
-    components: int
-    components_strength: str
-    hub: bool
-    solutions: str
-    certificate: bytes = field(repr=False)
+    graph6: Annotated[str, "The graph; ``networkx.from_graph6_bytes(entry.graph6.encode())`` reads it."]
+    value: Annotated[Value, "As `Verdict.value`."]
+    strength: Annotated[str, "``'proof'``, or ``'2^e'``: an error bound."]
+    rank: Annotated[int, "The generic rank."]
+    rank_strength: Annotated[str, "As `strength`."]
+    components: Annotated[int, "The number of maximal components."]
+    components_strength: Annotated[str, "As `strength`."]
+    hub: Annotated[bool, "Whether the refutation takes a hub."]
+    solutions: Annotated[str,
+        "How many solutions there are, or bounds as in ``'1-2'`` and ``'1-'``; empty if there are infinitely many. "
+        "Without ``solutions=True`` what bodies show: ``'1'`` or ``'1-'``.",
+    ]
+    certificate: Annotated[bytes, "For :func:`check`."] = field(repr=False)
 
 
 def catalog(
@@ -100,8 +78,8 @@ def catalog(
         _native.Candidates(
             whole("nodes", nodes, 0, 2**31 - 1),
             edges=whole_if("edges", edges, 0, 2**31 - 1),
-            necessary=necessary,
-            solutions=solutions,
+            necessary=flag("necessary", necessary),
+            solutions=flag("solutions", solutions),
             prime=whole_if("prime", prime, 5, 2**62 - 1),
             seed=whole("seed", seed, 0, 2**64 - 1),
         ),

@@ -3,74 +3,41 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass, field, fields
-from typing import Any, Iterable, Mapping, Optional, Protocol, Sequence, Tuple, Type, TypeVar, Union
+from dataclasses import dataclass, field
+from typing import Annotated, Any, Iterable, Optional, Protocol, Union
 
 from . import _native
-from ._arguments import one_of, whole_if
+from ._answers import of_native
+from ._arguments import flag, one_of, whole_if
 from ._errors import InputError, Rejected
 from ._convert import Node
 from ._graph import Path, as_graph, numbered
 from ._types import BaseLinesValue, Decided, Strength, Value
-from ._verdict import Number, Verdict, coordinates
-
-_T = TypeVar("_T")
-
-
-def of_native(kind: Type[_T], found: Any) -> _T:
-    """What the native part says, as a value of Python."""
-    return kind(**{one.name: getattr(found, one.name) for one in fields(kind)})  # type: ignore[arg-type]
-
+from ._verdict import Displacements, Verdict, coordinates
 
 @dataclass(frozen=True)
 class Verified:
-    """What a certificate proves. It can be pickled and compared.
+    """What a certificate proves. It can be pickled and compared."""
 
-    Attributes
-    ----------
-    value : str
-        ``'solvable'``, ``'finite-solvable'`` or ``'not-finite-solvable'``.
-    strength : str
-        ``'proof'``, or ``'error-bound'``: wrong with probability at most ``2**error_log2``.
-    error_log2 : int, optional
-        The exponent of the error bound.
-    rank, required : int
-        The generic rank, and that of a finite solvable graph with as many nodes.
-    components : int
-        How many there are.
-    nodes, edges : int
-        Of the graph.
-    sha256 : str
-        Its hash.
-    parts : int
-        How many known parts are taken for given.
-    displacements : int
-        Between how many sets of nodes displacements are taken for given.
-    base_lines : str, optional
-        What frames add where base lines are unknown.
-    own_frame : str, optional
-        What is determined beside displacements in a frame of their own; all else is without them.
-    model : str
-        The question.
-    text : str
-        All of it in words.
-    """
-
-    value: Value
-    strength: Strength
-    error_log2: Optional[int]
-    rank: int
-    required: int
-    components: int
-    nodes: int
-    edges: int
-    sha256: str
-    parts: int
-    displacements: int
-    base_lines: Optional[BaseLinesValue]
-    own_frame: Optional[Value]
-    model: Decided
-    text: str = field(repr=False)
+    value: Annotated[Value, "``'solvable'``, ``'finite-solvable'`` or ``'not-finite-solvable'``."]
+    strength: Annotated[Strength,
+        "``'proof'``, or ``'error-bound'``: wrong with probability at most ``2**error_log2``.",
+    ]
+    error_log2: Annotated[Optional[int], "The exponent of the error bound."]
+    rank: Annotated[int, "The generic rank."]
+    required: Annotated[int, "That of a finite solvable graph with as many nodes."]
+    components: Annotated[int, "How many there are."]
+    nodes: Annotated[int, "How many nodes the graph has."]
+    edges: Annotated[int, "How many pairs."]
+    sha256: Annotated[str, "Its hash."]
+    parts: Annotated[int, "How many known parts are taken for given."]
+    displacements: Annotated[int, "Between how many sets of nodes displacements are taken for given."]
+    base_lines: Annotated[Optional[BaseLinesValue], "What frames add where base lines are unknown."]
+    own_frame: Annotated[Optional[Value],
+        "What is determined beside displacements in a frame of their own; all else is without them.",
+    ]
+    model: Annotated[Decided, "The question."]
+    text: Annotated[str, "All of it in words."] = field(repr=False)
 
     def __repr__(self) -> str:
         size = f"{self.nodes} nodes, {self.edges} pairs"
@@ -117,9 +84,7 @@ def check(
     graph: Any = None,
     *,
     parts: Optional[Iterable[Iterable[Node]]] = None,
-    displacements: Union[
-        Mapping[Tuple[Any, Any], Sequence[Number]], Iterable[Iterable[Node]], None
-    ] = None,
+    displacements: Displacements[Any] = None,
     one_frame: bool = False,
     model: Optional[str] = None,
     max_operations: Optional[int] = None,
@@ -207,7 +172,7 @@ def check(
         parts=known,
         displacements=groups,
         vectors=coordinates(displacements),
-        one_frame=one_frame,
+        one_frame=flag("one_frame", one_frame),
         max_operations=max_operations,
     )
     return _of_model(model, of_native(Verified, found))

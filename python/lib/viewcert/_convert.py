@@ -44,6 +44,7 @@ def converted(graph: Any, name: str, wish: Wish) -> Converted:
         raise InputError(f"columns: {type(graph).__name__} is no table; leave it out")
     networkx = sys.modules.get("networkx")
     if networkx is not None and isinstance(graph, networkx.Graph):
+        _undirected(graph.is_directed())
         edges = graph.edges() if wish.inliers is None else graph.edges(data=True)
         return _of_pairs(edges, name, list(graph), wish)
     if isinstance(graph, (str, bytes, os.PathLike)):
@@ -55,6 +56,7 @@ def converted(graph: Any, name: str, wish: Wish) -> Converted:
         )
     rustworkx = sys.modules.get("rustworkx")
     if rustworkx is not None and isinstance(graph, (rustworkx.PyGraph, rustworkx.PyDiGraph)):
+        _undirected(isinstance(graph, rustworkx.PyDiGraph))
         return _of_rustworkx(graph, name, wish)
     sparse = sys.modules.get("scipy.sparse")
     if sparse is not None and sparse.issparse(graph):
@@ -65,6 +67,21 @@ def converted(graph: Any, name: str, wish: Wish) -> Converted:
             return _of_integers(pairs, name)
         graph = pairs.tolist()
     return _of_pairs(graph, name, [], wish)
+
+
+def _undirected(is_directed: bool) -> None:
+    if is_directed:
+        raise InputError("the graph is directed, and pairs of images are not; give graph.to_undirected()")
+
+
+def _is_missing(node: Any) -> bool:
+    """Whether a value is no name: None, and what is not equal to itself, as nan, NaT and NA."""
+    if isinstance(node, (tuple, frozenset)):
+        return any(member is not None and _is_missing(member) for member in node)
+    try:
+        return node is None or bool(node != node)
+    except (TypeError, ValueError):
+        return True
 
 
 def table(graph: Any) -> Any:
@@ -96,8 +113,7 @@ def _of_table(frame: Any, name: str, wish: Wish) -> Converted:
             raise InputError(f"the table has no column {head!r}; its columns are {heads}")
     ends = [frame[head].to_numpy() for head in pair]
     for head, column in zip(pair, ends):
-        # What is missing is None, or not equal to itself.
-        missing = [row for row, end in enumerate(_values(column)) if end is None or end != end]
+        missing = [row for row, end in enumerate(_values(column)) if _is_missing(end)]
         if missing:
             raise InputError(f"column {head!r} of the table is empty in row {missing[0]}; leave it out")
     if wish.inliers is None and all(column.dtype.kind in "iu" for column in ends):
@@ -176,6 +192,8 @@ def _of_sparse(matrix: Any, name: str) -> Converted:
         raise InputError(f"{nodes} nodes are too many: at most 2^32 - 1")
     sparse = sys.modules["scipy.sparse"]
     entries = matrix.tocoo()
+    if (entries.data != entries.data).any():
+        raise InputError("an entry of the matrix is nan: set those to zero that stand for no pair")
     there = entries.data != 0
     row, column = (entries.row, entries.col) if there.all() else (entries.row[there], entries.col[there])
     loops = row == column
@@ -220,8 +238,9 @@ def _of_pairs(graph: Any, name: str, alone: List[Node], wish: Wish) -> Converted
         nodes: List[Node] = list(dict.fromkeys(chain(alone, ends(pairs))))
     except TypeError as error:
         raise InputError(f"a node cannot be told from others: {error}") from None
-    if any(isinstance(node, float) and node != node for node in nodes):
-        raise InputError("a node is nan, which is no name: leave out its pairs, or give it one")
+    strange = [node for node in nodes if type(node) not in (int, str) and _is_missing(node)]
+    if strange:
+        raise InputError(f"a node is {strange[0]!r}, which is no name: leave out its pairs, or give it one")
     nodes, texts, labels = _ordered(nodes)
     number_of = {node: number for number, node in enumerate(nodes)}
     numbers = np.fromiter(map(number_of.__getitem__, ends(pairs)), np.uint32, 2 * len(pairs))

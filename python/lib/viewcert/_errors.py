@@ -80,9 +80,13 @@ def answering(thing: _T) -> _T:
                 setattr(thing, name, answering(method))
         return thing
     function: Callable[..., Any] = thing
+    signature = getattr(function, "__signature__", None)
 
     @functools.wraps(function)
     def answer(*arguments: Any, **options: Any) -> Any:
+        strange = [option for option in options if signature and option not in signature.parameters]
+        if strange:
+            raise TypeError(f"{function.__name__}() got an unexpected keyword argument {strange[0]!r}")
         try:
             return function(*arguments, **options)
         except _PLAIN as error:

@@ -7,71 +7,36 @@ import json
 import os
 from contextlib import ExitStack
 from dataclasses import dataclass, field
-from decimal import Decimal
-from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Tuple, Union, get_args
+from typing import TYPE_CHECKING, Annotated, Any, Dict, List, Optional, Sequence, Tuple, Union, get_args
 
 from . import _native
-from ._arguments import listed, one_of, path_of, whole_if
+from ._answers import of_native
+from ._arguments import listed, one_of, path_of, taking
 from ._errors import InputError, Rejected, TooLarge
 from ._graph import Path, on_disk
 from ._progress import Progress
 from ._limits import limits
-from ._types import Errors, Format, Pipeline
+from ._reading import reading
+from ._types import Errors, Filters, Format, Reading
 from ._words import in_python
 
 if TYPE_CHECKING:
     import pycolmap
-
-
-def _reading(
-    *,
-    format: Optional[Format],
-    variable: Optional[str],
-    pipeline: Optional[Pipeline],
-    min_inliers: Optional[int],
-    min_views: Optional[int],
-    max_spread: Optional[int],
-    rigs: bool,
-    columns: Optional[Sequence[Union[str, int]]],
-    min_weight: Union[str, int, Decimal, None],
-    skip_loops: bool,
-) -> Dict[str, Any]:
-    """How pairs and tracks of a file are read, as the native part takes it."""
-    if isinstance(min_weight, float):
-        raise InputError(f"min_weight={min_weight!r}: give an integer, a Decimal or a string")
-    if pipeline is not None:
-        one_of("pipeline", pipeline, get_args(Pipeline))
-    return {
-        "format": format,
-        "variable": variable,
-        "pipeline": pipeline,
-        "min_inliers": whole_if("min_inliers", min_inliers, 0, 2**32 - 1),
-        "min_views": whole_if("min_views", min_views, 1, 2**32 - 1),
-        "max_spread": whole_if("max_spread", max_spread, 0, 2**32 - 1),
-        "rigs": bool(rigs),
-        "columns": None if columns is None else ",".join(map(str, listed("columns", columns))),
-        "min_weight": None if min_weight is None else str(min_weight),
-        "skip_loops": bool(skip_loops),
-    }
+    from typing_extensions import Unpack
 
 
 @dataclass(frozen=True)
 class Overview:
     """What the pairs and tracks of an input determine, and what follows.
 
-    Attributes
-    ----------
-    path : str
-        The input; of one that is open in pycolmap ``'database'`` or ``'reconstruction'``.
-    found : dict
-        What ``verify overview --json`` prints: ``pairs`` and ``tracks`` with their verdicts, ``mappers`` with what
-        COLMAP's mappers will make of it, ``next`` with commands.
-
     Printed, it is the report; in a notebook, the page with its picture.
     """
 
-    path: str
-    found: Dict[str, Any] = field(repr=False)
+    path: Annotated[str, "The input; of one that is open in pycolmap ``'database'`` or ``'reconstruction'``."]
+    found: Annotated[Dict[str, Any],
+        "What ``verify overview --json`` prints: ``pairs`` and ``tracks`` with their verdicts, ``mappers`` with "
+        "what COLMAP's mappers will make of it, ``next`` with commands.",
+    ] = field(repr=False)
     _reading: Dict[str, Any] = field(repr=False)
     _said: Dict[str, str] = field(repr=False, compare=False)
 
@@ -107,19 +72,12 @@ class Overview:
         return self._said[kind]
 
 
+@taking(Reading, reading)
 def overview(
     path: Union[Path, pycolmap.Database, pycolmap.Reconstruction],
     *,
     format: Optional[Format] = None,
-    variable: Optional[str] = None,
-    pipeline: Optional[Pipeline] = None,
-    min_inliers: Optional[int] = None,
-    min_views: Optional[int] = None,
-    max_spread: Optional[int] = None,
-    rigs: bool = True,
-    columns: Optional[Sequence[Union[str, int]]] = None,
-    min_weight: Union[str, int, Decimal, None] = None,
-    skip_loops: bool = False,
+    **options: Unpack[Reading],
 ) -> Overview:
     """Says on one screen what the pairs and the tracks of a database determine, and what follows for mapping.
 
@@ -128,8 +86,8 @@ def overview(
     path : str, path, pycolmap.Database or pycolmap.Reconstruction
         A database of COLMAP, which is opened for reading only, a model, or any other file that :func:`read` reads. Of
         what is open in pycolmap a copy is read.
-    format, variable, pipeline, min_inliers, min_views, max_spread, rigs, columns, min_weight, skip_loops
-        As of :func:`read`.
+    format, **options
+        As of :func:`read`, without `tracks`.
 
     Raises
     ------
@@ -144,61 +102,30 @@ def overview(
     >>> viewcert.overview(path).found["pairs"]["projective"]["verdict"]
     'not-finite-solvable'
     """
-    reading = _reading(
-        format=format,
-        variable=variable,
-        pipeline=pipeline,
-        min_inliers=min_inliers,
-        min_views=min_views,
-        max_spread=max_spread,
-        rigs=rigs,
-        columns=columns,
-        min_weight=min_weight,
-        skip_loops=skip_loops,
-    )
+    asked = reading(format=format, **options)
     with on_disk(path) as (place, name):
         # A copy is gone afterwards, so that everything is said of it now.
         kinds = ("json",) if name is None else ("json", "text", "html")
-        said = {kind: _native.overview(place, reading, kind).decode().replace(place, name or place) for kind in kinds}
-    return Overview(name or place, json.loads(said["json"]), reading, said)
+        said = {kind: _native.overview(place, asked, kind).decode().replace(place, name or place) for kind in kinds}
+    return Overview(name or place, json.loads(said["json"]), asked, said)
 
 
 @dataclass(frozen=True)
 class ListedImages:
-    """A list of images.
+    """A list of images."""
 
-    Attributes
-    ----------
-    file : str
-        The list.
-    images : int
-        How many it has.
-    is_whole : bool
-        Whether its own pairs or tracks hold all of them together, if every pair is right.
-    """
-
-    file: str
-    images: int
-    is_whole: bool
+    file: Annotated[str, "The list."]
+    images: Annotated[int, "How many it has."]
+    is_whole: Annotated[bool, "Whether its own pairs or tracks hold all of them together, if every pair is right."]
 
 
 @dataclass(frozen=True)
 class Lists:
-    """Whether lists of images are whole, and what their overlaps fix.
+    """Whether lists of images are whole, and what their overlaps fix."""
 
-    Attributes
-    ----------
-    determined : bool
-        Whether every list is whole, and all are fixed against each other.
-    lists : tuple of ListedImages
-        Each list.
-    found : dict
-        What ``verify lists --json`` prints.
-    """
-
-    determined: bool
-    lists: Tuple[ListedImages, ...]
-    found: Dict[str, Any] = field(repr=False)
+    determined: Annotated[bool, "Whether every list is whole, and all are fixed against each other."]
+    lists: Annotated[Tuple[ListedImages, ...], "Each list."]
+    found: Annotated[Dict[str, Any], "What ``verify lists --json`` prints."] = field(repr=False)
     _text: str = field(repr=False)
 
     def report(self) -> str:
@@ -206,15 +133,11 @@ class Lists:
         return self._text
 
 
+@taking(Filters, reading)
 def lists(
     graph: Union[Path, pycolmap.Database],
     files: Sequence[Path],
-    *,
-    pipeline: Optional[Pipeline] = None,
-    min_inliers: Optional[int] = None,
-    min_views: Optional[int] = None,
-    max_spread: Optional[int] = None,
-    rigs: bool = True,
+    **filters: Unpack[Filters],
 ) -> Lists:
     """Says whether lists of images are whole, as COLMAP's mappers take them, and whether their overlaps fix scales.
 
@@ -225,31 +148,20 @@ def lists(
         decided by its own pairs.
     files : sequence of paths
         The lists, a name on each line.
-    pipeline, min_inliers, min_views, max_spread, rigs
-        As of :func:`read`.
+    **filters
+        `pipeline`, `min_inliers`, `min_views`, `max_spread` and `rigs`, as of :func:`read`.
 
     Raises
     ------
     InputError
         A file that cannot be read, or names an image that the graph does not have.
     """
-    reading = _reading(
-        format=None,
-        variable=None,
-        pipeline=pipeline,
-        min_inliers=min_inliers,
-        min_views=min_views,
-        max_spread=max_spread,
-        rigs=rigs,
-        columns=None,
-        min_weight=None,
-        skip_loops=False,
-    )
+    asked = reading(**filters)
     if isinstance(files, (str, bytes, os.PathLike)):
         raise InputError("files: give a list of paths, one for each list of images")
     paths = [path_of("files", file) for file in listed("files", files)]
     with on_disk(graph, "graph") as (path, name):
-        said, text = (one.replace(path, name or path) for one in _native.lists(path, paths, reading))
+        said, text = (one.replace(path, name or path) for one in _native.lists(path, paths, asked))
     found = json.loads(said)
     each = tuple(ListedImages(one["file"], one["images"], one["whole"]) for one in found["lists"])
     return Lists(found["determined"], each, found, text)
@@ -257,24 +169,14 @@ def lists(
 
 @dataclass(frozen=True)
 class Merge:
-    """What two models share, and whether they can be made one.
+    """What two models share, and whether they can be made one."""
 
-    Attributes
-    ----------
-    determined : bool
-        Whether what they share leaves nothing free between them, if every pair is right.
-    agree : bool, optional
-        Whether it fits, as measured in floating point; None if they share too little to contradict each other.
-    disagree : tuple of str
-        The images that the two have at different places, the worst first.
-    found : dict
-        What ``verify merge --json`` prints.
-    """
-
-    determined: bool
-    agree: Optional[bool]
-    disagree: Tuple[str, ...]
-    found: Dict[str, Any] = field(repr=False)
+    determined: Annotated[bool, "Whether what they share leaves nothing free between them, if every pair is right."]
+    agree: Annotated[Optional[bool],
+        "Whether it fits, as measured in floating point; None if they share too little to contradict each other.",
+    ]
+    disagree: Annotated[Tuple[str, ...], "The images that the two have at different places, the worst first."]
+    found: Annotated[Dict[str, Any], "What ``verify merge --json`` prints."] = field(repr=False)
     _text: str = field(repr=False)
 
     def report(self) -> str:
@@ -282,16 +184,12 @@ class Merge:
         return self._text
 
 
+@taking(Filters, reading)
 def merge(
     one: Union[Path, pycolmap.Reconstruction],
     other: Union[Path, pycolmap.Reconstruction],
     database: Union[Path, pycolmap.Database, None] = None,
-    *,
-    pipeline: Optional[Pipeline] = None,
-    min_inliers: Optional[int] = None,
-    min_views: Optional[int] = None,
-    max_spread: Optional[int] = None,
-    rigs: bool = True,
+    **filters: Unpack[Filters],
 ) -> Merge:
     """Says what two models of COLMAP share, whether that fixes the one against the other, and whether it fits.
 
@@ -301,31 +199,20 @@ def merge(
         The folders of the models, or models that are open in pycolmap.
     database : str, path or pycolmap.Database, optional
         The database of both: its tracks may fix what the models alone leave free.
-    pipeline, min_inliers, min_views, max_spread, rigs
-        As of :func:`read`.
+    **filters
+        `pipeline`, `min_inliers`, `min_views`, `max_spread` and `rigs`, as of :func:`read`.
 
     Raises
     ------
     InputError
         A file that cannot be read, or a pose that is none.
     """
-    reading = _reading(
-        format=None,
-        variable=None,
-        pipeline=pipeline,
-        min_inliers=min_inliers,
-        min_views=min_views,
-        max_spread=max_spread,
-        rigs=rigs,
-        columns=None,
-        min_weight=None,
-        skip_loops=False,
-    )
+    asked = reading(**filters)
     with ExitStack() as opened:
         given = {"one": one, "other": other, **({} if database is None else {"database": database})}
         files = {what: opened.enter_context(on_disk(each, what)) for what, each in given.items()}
         paths = [file for file, _ in files.values()]
-        said, text = _native.merge(paths[0], paths[1], paths[2] if len(paths) > 2 else None, reading)
+        said, text = _native.merge(paths[0], paths[1], paths[2] if len(paths) > 2 else None, asked)
     for what, (file, name) in files.items():
         if name is not None:
             said, text = (words.replace(file, f"{name} `{what}`") for words in (said, text))
@@ -347,39 +234,24 @@ class NotVerified:
 
 @dataclass(frozen=True)
 class Archive:
-    """What came of an archive of certificates.
+    """What came of an archive of certificates."""
 
-    Attributes
-    ----------
-    verified : int
-        How many were verified.
-    rejected, too_large : tuple of NotVerified
-        Those that were rejected, and those that take more than the limits allow. A file that is damaged is
-        among the rejected, at the line that could not be read, and the others are checked all the same.
-    graphs : int
-        How many graphs those are about that were verified.
-    verdicts : dict
-        How many prove each verdict.
-    supposing : int
-        How many suppose anything besides their graphs (known parts, displacements, frames of rigs, cameras, classes
-        of cameras); :func:`check` says of each what.
-    complete : bool, optional
-        Whether all is there, and nothing else, that the manifests of folders name; None if there are none.
-    manifest : tuple of str
-        What there is to say of that, in words.
-    skipped : tuple of (str, str)
-        Files that are neither certificates nor in a manifest, and why they are not looked into.
-    """
-
-    verified: int
-    rejected: Tuple[NotVerified, ...]
-    too_large: Tuple[NotVerified, ...]
-    graphs: int
-    verdicts: Dict[str, int]
-    supposing: int
-    complete: Optional[bool]
-    manifest: Tuple[str, ...]
-    skipped: Tuple[Tuple[str, str], ...]
+    verified: Annotated[int, "How many were verified."]
+    rejected: Annotated[Tuple[NotVerified, ...], "Those that were rejected, lines that cannot be read among them."]
+    too_large: Annotated[Tuple[NotVerified, ...], "Those that take more than the limits allow."]
+    graphs: Annotated[int, "How many graphs those are about that were verified."]
+    verdicts: Annotated[Dict[str, int], "How many prove each verdict."]
+    supposing: Annotated[int,
+        "How many suppose anything besides their graphs (known parts, displacements, frames of rigs, cameras, "
+        "classes of cameras); :func:`check` says of each what.",
+    ]
+    complete: Annotated[Optional[bool],
+        "Whether all is there, and nothing else, that the manifests of folders name; None if there are none.",
+    ]
+    manifest: Annotated[Tuple[str, ...], "What there is to say of that, in words."]
+    skipped: Annotated[Tuple[Tuple[str, str], ...],
+        "Files that are neither certificates nor in a manifest, and why they are not looked into.",
+    ]
 
     @property
     def is_good(self) -> bool:
@@ -435,17 +307,7 @@ def check_all(path: Path, *, errors: Errors = "return", progress: Progress = Non
     def listed(items: List[Tuple[str, int, str]]) -> Tuple[NotVerified, ...]:
         return tuple(NotVerified(file, line, in_python(reason)) for file, line, reason in items)
 
-    archive = Archive(
-        verified=found.verified,
-        rejected=listed(found.rejected),
-        too_large=listed(found.undecided),
-        graphs=found.graphs,
-        verdicts=found.verdicts,
-        supposing=found.supposing,
-        complete=found.complete,
-        manifest=tuple(found.manifest),
-        skipped=tuple(found.skipped),
-    )
+    archive = of_native(Archive, found, rejected=listed(found.rejected), too_large=listed(found.undecided))
     if errors == "raise":
         for bad in archive.rejected:
             raise Rejected(f"{bad.file}:{bad.line}", bad.reason)

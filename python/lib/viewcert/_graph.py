@@ -6,7 +6,6 @@ import os
 import sys
 import tempfile
 from contextlib import contextmanager
-from decimal import Decimal
 from typing import (
     TYPE_CHECKING,
     Any,
@@ -21,7 +20,6 @@ from typing import (
     Tuple,
     Union,
     cast,
-    get_args,
     overload,
 )
 
@@ -29,11 +27,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
-from ._arguments import listed, one_of, path_of, whole, whole_if
+from ._arguments import flag, listed, path_of, taking, whole
 from ._convert import Node, Wish, converted, rows_of
 from ._errors import Error, InputError, answering
 from ._native import Graph as NativeGraph
-from ._types import Format, Lines, N, Pipeline, Reading
+from ._reading import reading
+from ._types import Format, Lines, N, Networkx, Other, Pipeline, Reading
 from ._words import in_python, noted, shown_notes
 
 if TYPE_CHECKING:
@@ -90,6 +89,16 @@ class Graph(Generic[N]):
     _texts: Optional[Sequence[str]]
     _numbers: Optional[Dict[Node, int]]
 
+    @overload
+    def __init__(
+        self: Graph[N], graph: OfNodes[N], *, name: str = ..., columns: Optional[Tuple[Any, Any]] = ...,
+        inliers: Optional[str] = ..., min_inliers: int = ...,
+    ) -> None: ...
+    @overload
+    def __init__(
+        self: Graph[Any], graph: Other, *, name: str = ..., columns: Optional[Tuple[Any, Any]] = ...,
+        inliers: Optional[str] = ..., min_inliers: int = ...,
+    ) -> None: ...
     @answering
     def __init__(
         self,
@@ -256,6 +265,9 @@ class Graph(Generic[N]):
             graph.add_edges_from((a, b, {"inliers": count}) for (a, b), count in zip(self.pairs, counts))
         return graph
 
+    def _repr_svg_(self) -> str:
+        return self._native.picture()
+
     def __repr__(self) -> str:
         native = self._native
         size = f"{native.nodes} nodes, {native.edges} pairs"
@@ -313,6 +325,10 @@ class Graph(Generic[N]):
         nodes: List[Any] = list(self.nodes)
         texts = map(str, nodes) if self._texts is None else self._texts
         return dict(zip(texts, nodes))
+
+
+#: A graph whose nodes have a type.
+OfNodes = Union[Graph[N], Sequence[Tuple[N, N]], Networkx[N]]
 
 
 def _restored(
@@ -403,32 +419,21 @@ def as_graph(graph: Any, name: Optional[str] = None) -> Graph[Any]:
 
 @overload
 def read(
-    path: Path, *, tracks: Literal[True], format: Optional[Format] = ..., **reading: Unpack[Reading]
+    path: Path, *, tracks: Literal[True], format: Optional[Format] = ..., **options: Unpack[Reading]
 ) -> Graph[str]: ...
 @overload
 def read(
-    path: Path, *, format: Format, tracks: Literal[False] = ..., **reading: Unpack[Reading]
+    path: Path, *, format: Format, tracks: Literal[False] = ..., **options: Unpack[Reading]
 ) -> Graph[Any]: ...
 @overload
 def read(
     path: Path, *, format: Lines, skip_loops: bool = ...
 ) -> Union[Graph[int], List[Graph[int]]]: ...
 @overload
-def read(path: Path, *, format: None = ..., tracks: bool = ..., **reading: Unpack[Reading]) -> Any: ...
+def read(path: Path, *, format: None = ..., tracks: bool = ..., **options: Unpack[Reading]) -> Any: ...
+@taking(Reading, reading)
 def read(
-    path: Path,
-    *,
-    format: Union[Format, Lines, None] = None,
-    variable: Optional[str] = None,
-    pipeline: Optional[Pipeline] = None,
-    min_inliers: Optional[int] = None,
-    tracks: bool = False,
-    min_views: int = 3,
-    max_spread: int = 10,
-    rigs: bool = True,
-    columns: Optional[Sequence[Union[str, int]]] = None,
-    min_weight: Union[str, int, Decimal, None] = None,
-    skip_loops: bool = False,
+    path: Path, *, format: Union[Format, Lines, None] = None, tracks: bool = False, **options: Unpack[Reading]
 ) -> Any:
     """Reads a file as the program does.
 
@@ -450,11 +455,11 @@ def read(
         As of :func:`from_database`.
     tracks : bool
         Whether the graph is that of cameras and points.
-    min_views : int
-        In how many images a track has to be seen to count.
-    max_spread : int
+    min_views : int, optional
+        In how many images a track has to be seen to count, by default in 3.
+    max_spread : int, optional
         Features of one track in one image of a database are one if they are at most so many pixels
-        apart; otherwise the track is dropped.
+        apart, by default 10; otherwise the track is dropped.
     rigs : bool
         Whether the base lines of the rigs of a database are known, where its tracks are read.
     columns : sequence of str or int, optional
@@ -485,25 +490,13 @@ def read(
     >>> viewcert.read(path).nodes
     ['a.jpg', 'b.jpg', 'c.jpg']
     """
-    if isinstance(min_weight, float):
-        raise InputError(f"min_weight={min_weight!r}: give an integer, a Decimal or a string")
-    if pipeline is not None:
-        one_of("pipeline", pipeline, get_args(Pipeline))
+    asked = reading(format=format, **options)
+    if not flag("tracks", tracks):
+        for option in ("min_views", "max_spread"):
+            if asked[option] is not None:
+                raise InputError(f"{option}: it says how tracks count; leave it out, or give tracks=True")
     with on_disk(path) as (file, name):
-        found = _native.read(
-            file,
-            name=name,
-            format=format,
-            variable=variable,
-            pipeline=pipeline,
-            min_inliers=whole_if("min_inliers", min_inliers, 0, 2**32 - 1),
-            min_views=whole("min_views", min_views, 1, 2**32 - 1) if tracks else None,
-            max_spread=whole("max_spread", max_spread, 0, 2**32 - 1) if tracks else None,
-            rigs=bool(rigs),
-            columns=None if columns is None else ",".join(map(str, listed("columns", columns))),
-            min_weight=None if min_weight is None else str(min_weight),
-            skip_loops=bool(skip_loops),
-        )
+        found = _native.read(file, name, tracks, asked)
     graphs = [Graph._of(native) for native in found]
     for graph in graphs:
         noted(graph.name, graph._native.notes)
@@ -547,6 +540,17 @@ def from_database(
     ------
     InputError
         No such file, no database of COLMAP, or a locked one.
+
+    Examples
+    --------
+    >>> import pycolmap, tempfile, viewcert
+    >>> path = tempfile.mkdtemp() + "/database.db"
+    >>> options = pycolmap.SyntheticDatasetOptions(num_rigs=1, num_frames_per_rig=4)
+    >>> with pycolmap.Database.open(path) as database:
+    ...     _ = pycolmap.synthesize_dataset(options, database)
+    >>> graph = viewcert.from_database(path)
+    >>> len(graph), len(graph.pairs), viewcert.verify(graph).value
+    (4, 6, 'solvable')
     """
     graph = _read_one(path, **_filters(min_inliers, pipeline))
     if not graph._native.is_database:
@@ -587,6 +591,17 @@ def tracks_from_database(
     ------
     InputError
         As of :func:`from_database`, and a database without lists of matches.
+
+    Examples
+    --------
+    >>> import pycolmap, tempfile, viewcert
+    >>> path = tempfile.mkdtemp() + "/database.db"
+    >>> options = pycolmap.SyntheticDatasetOptions(num_rigs=1, num_frames_per_rig=4, num_points3D=50)
+    >>> with pycolmap.Database.open(path) as database:
+    ...     _ = pycolmap.synthesize_dataset(options, database)
+    >>> graph = viewcert.tracks_from_database(path)
+    >>> graph.cameras, len(graph), viewcert.verify(graph).model
+    (4, 54, 'calibrated')
     """
     filters = _filters(min_inliers, pipeline)
     return _read_one(path, tracks=True, min_views=min_views, max_spread=max_spread, rigs=rigs, **filters)
@@ -613,6 +628,14 @@ def tracks_from_reconstruction(
     ------
     InputError
         A reconstruction without points.
+
+    Examples
+    --------
+    >>> import pycolmap, viewcert
+    >>> options = pycolmap.SyntheticDatasetOptions(num_rigs=1, num_frames_per_rig=4, num_points3D=50)
+    >>> graph = viewcert.tracks_from_reconstruction(pycolmap.synthesize_dataset(options))
+    >>> graph.cameras, len(graph), viewcert.verify(graph).value
+    (4, 54, 'solvable')
     """
     graph = _read_one(reconstruction, tracks=True, min_views=min_views)
     if graph._native.is_database:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, Dict, Hashable, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Annotated, Any, Dict, Hashable, List, Mapping, Optional, Sequence, Tuple, Union
 
 from . import _native
 from ._act import _asked, _decided
-from ._arguments import whole_if
+from ._answers import of_native, of_said
+from ._arguments import flag, whole, whole_if
 from ._errors import InputError, Rejected
-from ._check import of_native, text_of
+from ._check import text_of
 from ._convert import Node
 from ._graph import Path, as_graph
 from ._types import Class, IntrinsicsValue
@@ -18,44 +19,24 @@ from ._verdict import Verdict
 
 @dataclass(frozen=True)
 class VerifiedIntrinsics:
-    """What a certificate of intrinsics proves. It can be pickled and compared.
+    """What a certificate of intrinsics proves. It can be pickled and compared."""
 
-    Attributes
-    ----------
-    value : str
-        ``'metric'``, ``'not-metric'`` or ``'open'``.
-    rank, rank_at_most : int
-        Bounds of the generic rank.
-    required : int
-        The rank of a metric graph.
-    components : list of list of int, optional
-        Metric components, as positions in the `graph.nodes` of a verdict; None if bounds do not meet.
-    not_determined : list of int, optional
-        The positions of the nodes whose intrinsics are not determined; None if bounds do not meet.
-    classes : list of (int, str)
-        How many cameras are of which class.
-    classes_sha256 : str
-        The hash of the classes.
-    nodes, edges : int
-        Of the graph.
-    sha256 : str
-        Its hash.
-    text : str
-        All of it in words.
-    """
-
-    value: IntrinsicsValue
-    rank: int
-    rank_at_most: int
-    required: int
-    components: Optional[List[List[int]]]
-    not_determined: Optional[List[int]]
-    classes: List[Tuple[int, Class]]
-    classes_sha256: str
-    nodes: int
-    edges: int
-    sha256: str
-    text: str = field(repr=False)
+    value: Annotated[IntrinsicsValue, "``'metric'``, ``'not-metric'`` or ``'open'``."]
+    rank: Annotated[int, "What the generic rank is not below."]
+    rank_at_most: Annotated[int, "What it is not above."]
+    required: Annotated[int, "The rank of a metric graph."]
+    components: Annotated[Optional[List[List[int]]],
+        "Metric components, as positions in the `graph.nodes` of a verdict; None if bounds do not meet.",
+    ]
+    not_determined: Annotated[Optional[List[int]],
+        "The positions of the nodes whose intrinsics are not determined; None if bounds do not meet.",
+    ]
+    classes: Annotated[List[Tuple[int, Class]], "How many cameras are of which class."]
+    classes_sha256: Annotated[str, "The hash of the classes."]
+    nodes: Annotated[int, "How many nodes the graph has."]
+    edges: Annotated[int, "How many pairs."]
+    sha256: Annotated[str, "Its hash."]
+    text: Annotated[str, "All of it in words."] = field(repr=False)
 
     def __hash__(self) -> int:
         return hash((self.sha256, self.classes_sha256, self.value, self.rank))
@@ -69,93 +50,57 @@ class VerifiedIntrinsics:
 
 @dataclass(frozen=True)
 class Prior:
-    """What is determined once one camera more is calibrated.
+    """What is determined once one camera more is calibrated."""
 
-    Attributes
-    ----------
-    nodes : frozenset
-        The nodes of the sensor that is calibrated: one, unless several images are of one camera.
-    unknown : str
-        What is not known of it before, as a class: ``'focal'``, ``'focal+point'`` or ``'unknown'``.
-    metric : bool
-        Whether all cameras are determined then; it is proved if it is said.
-    proved : bool
-        Whether the bounds of the rank meet then, so that all of this is proved.
-    rank, rank_at_most, rank_required : int
-        The generic rank then is between the first two; a metric graph has the third.
-    determined : int
-        How many nodes have known or determined intrinsics then.
-    others : int
-        How many of them are neither in `nodes` nor determined without it.
-    largest : int
-        How many nodes the largest metric component has then.
-    """
-
-    nodes: frozenset[Node]
-    unknown: Class
-    metric: bool
-    proved: bool
-    rank: int
-    rank_at_most: int
-    rank_required: int
-    determined: int
-    others: int
-    largest: int
+    nodes: Annotated[frozenset[Node],
+        "The nodes of the sensor that is calibrated: one, unless several images are of one camera.",
+    ]
+    unknown: Annotated[Class,
+        "What is not known of it before, as a class: ``'focal'``, ``'focal+point'`` or ``'unknown'``.",
+    ]
+    metric: Annotated[bool, "Whether all cameras are determined then; it is proved if it is said."]
+    proved: Annotated[bool, "Whether the bounds of the rank meet then, so that all of this is proved."]
+    rank: Annotated[int, "What the generic rank is not below then."]
+    rank_at_most: Annotated[int, "What it is not above then."]
+    rank_required: Annotated[int, "The rank of a metric graph."]
+    determined: Annotated[int, "How many nodes have known or determined intrinsics then."]
+    others: Annotated[int, "How many of them are neither in `nodes` nor determined without it."]
+    largest: Annotated[int, "How many nodes the largest metric component has then."]
 
 
 @dataclass(frozen=True)
 class Priors:
-    """What one prior more on intrinsics would do.
+    """What one prior more on intrinsics would do."""
 
-    Attributes
-    ----------
-    each : tuple of Prior
-        The best first: a metric graph, most intrinsics determined, the largest metric component; of
-        equally good ones those with the fewest unknowns.
-    best : int
-        How many are as good as the first, itself included.
-    sensors : int
-        How many there are: sensors with a pair of which the intrinsics are not determined.
-    if_all_known : str
-        ``'metric'``, ``'not-metric'`` or ``'open'``: what the graph is if all intrinsics are known.
-        If that is ``'not-metric'``, pairs are missing, and no priors make it metric.
-    """
-
-    each: Tuple[Prior, ...]
-    best: int
-    sensors: int
-    if_all_known: str
+    each: Annotated[Tuple[Prior, ...],
+        "The best first: a metric graph, most intrinsics determined, the largest metric component; of equally good "
+        "ones those with the fewest unknowns.",
+    ]
+    best: Annotated[int, "How many are as good as the first, itself included."]
+    sensors: Annotated[int, "How many there are: sensors with a pair of which the intrinsics are not determined."]
+    if_all_known: Annotated[str,
+        "``'metric'``, ``'not-metric'`` or ``'open'``: what the graph is if all intrinsics are known. If that is "
+        "``'not-metric'``, pairs are missing, and no priors make it metric.",
+    ]
 
 
 @dataclass(frozen=True)
 class Intrinsics:
-    """What is determined up to similarities and finitely many choices.
+    """What is determined up to similarities and finitely many choices."""
 
-    Attributes
-    ----------
-    metric : bool
-        Whether all cameras and intrinsics are; it is proved if it is said.
-    proved : bool
-        Whether the bounds of the rank meet: then all that is said is proved.
-    rank, rank_at_most, rank_required : int
-        The generic rank is between the first two; a metric graph has the third.
-    components : tuple of frozenset
-        Nodes of pairs that are metric against each other, the largest component first.
-    other_pairs : int
-        How many pairs are in none of them.
-    determined : dict
-        For each node whether its intrinsics are known or determined, as
-        :func:`networkx.set_node_attributes` takes it.
-    """
-
-    metric: bool
-    proved: bool
-    rank: int
-    rank_at_most: int
-    rank_required: int
-    components: Tuple[frozenset[Node], ...]
-    other_pairs: int
-    determined: Dict[Node, bool]
+    metric: Annotated[bool, "Whether all cameras and intrinsics are; it is proved if it is said."]
+    proved: Annotated[bool, "Whether the bounds of the rank meet: then all that is said is proved."]
+    rank: Annotated[int, "What the generic rank is not below."]
+    rank_at_most: Annotated[int, "What it is not above."]
+    rank_required: Annotated[int, "The rank of a metric graph."]
+    components: Annotated[Tuple[frozenset[Node], ...],
+        "Nodes of pairs that are metric against each other, the largest component first.",
+    ]
+    other_pairs: Annotated[int, "How many pairs are in none of them."]
+    determined: Annotated[Dict[Node, bool],
+        "For each node whether its intrinsics are known or determined, as :func:`networkx.set_node_attributes` "
+        "takes it.",
+    ]
     _verdict: Verdict[Any] = field(repr=False, compare=False)
     _classes: Tuple[str, ...] = field(repr=False, compare=False)
     _sensors: Tuple[int, ...] = field(repr=False, compare=False)
@@ -177,7 +122,7 @@ class Intrinsics:
             If the graph has no pairs.
         """
         return self._verdict._native.certificate_of_intrinsics(
-            list(self._classes), list(self._sensors), embed_graph=embed_graph
+            list(self._classes), list(self._sensors), embed_graph=flag("embed_graph", embed_graph)
         )
 
     def priors(self, most: int = 10) -> Priors:
@@ -204,30 +149,19 @@ class Intrinsics:
             sensors=list(self._sensors),
         )["priors"]
         by_text = self._verdict.graph._by_text()
-        return Priors(
+        return of_said(
+            Priors,
+            found,
             each=tuple(
-                Prior(
+                of_said(
+                    Prior,
+                    prior,
                     nodes=frozenset(by_text[text] for text in prior["labels"]),
                     unknown=prior["class"],
                     metric=prior["verdict"] == "metric",
-                    **{
-                        name: prior[name]
-                        for name in (
-                            "proved",
-                            "rank",
-                            "rank_at_most",
-                            "rank_required",
-                            "determined",
-                            "others",
-                            "largest",
-                        )
-                    },
                 )
                 for prior in found["each"]
             ),
-            best=found["best"],
-            sensors=found["sensors"],
-            if_all_known=found["if_all_known"],
         )
 
 
@@ -272,17 +206,14 @@ def intrinsics(
     )
     by_text = verdict.graph._by_text()
     free = {by_text[text] for text in found["not_determined"]}
-    return Intrinsics(
+    return of_said(
+        Intrinsics,
+        found,
         metric=found["verdict"] == "metric",
-        proved=found["proved"],
-        rank=found["rank"],
-        rank_at_most=found["rank_at_most"],
-        rank_required=found["rank_required"],
         components=tuple(
             frozenset(by_text[text] for text in component["labels"])
             for component in found["components"]
         ),
-        other_pairs=found["other_pairs"],
         determined={node: node not in free for node in nodes},
         _verdict=verdict,
         _classes=tuple(words),

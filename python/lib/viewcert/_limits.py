@@ -8,6 +8,7 @@ from typing import Iterator, NamedTuple, Optional
 
 from ._arguments import limits as bounds
 from ._progress import Callback, Progress, shown
+from ._types import MemoryLimit, TimeLimit
 
 
 class _Around(NamedTuple):
@@ -29,8 +30,8 @@ def around() -> _Around:
 @contextmanager
 def limits(
     *,
-    time_limit: Optional[float] = None,
-    memory_limit: Optional[int] = None,
+    time_limit: TimeLimit = None,
+    memory_limit: MemoryLimit = None,
     progress: Progress = None,
 ) -> Iterator[None]:
     """Limits each call of this package in the block, and shows how far it is: advice, certificates,
@@ -41,10 +42,10 @@ def limits(
 
     Parameters
     ----------
-    time_limit : float, optional
-        How long each call may take, in seconds.
-    memory_limit : int, optional
-        What large matrices may take in each call, in bytes.
+    time_limit : float or str, optional
+        How long each call may take: seconds, or a text such as ``'90s'``, ``'5m'`` or ``'1h'``.
+    memory_limit : int or str, optional
+        What large matrices may take in each call: bytes, or a text such as ``'500M'`` or ``'2G'``.
     progress : callable or bool, optional
         Called as ``progress(what, done, total)`` some twenty times a second; True shows a bar.
 
@@ -59,7 +60,7 @@ def limits(
     --------
     >>> import viewcert
     >>> steps = []
-    >>> with viewcert.limits(time_limit=60, progress=lambda what, done, total: steps.append(what)):
+    >>> with viewcert.limits(time_limit="5m", progress=lambda what, done, total: steps.append(what)):
     ...     verdict = viewcert.verify([(0, 1), (0, 2), (1, 2)])
     ...     weak = viewcert.weak(verdict)
     """

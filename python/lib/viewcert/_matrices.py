@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, Literal, Tuple, Union, get_args, overload
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Tuple, Union, get_args, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
-from ._arguments import one_of
+from ._arguments import flag, one_of
 from ._cameras import Cameras, texts_of
 from ._graph import as_graph
 from ._types import MatrixName
@@ -21,25 +21,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class ExactMatrix:
-    """A sparse matrix with exact entries.
+    """A sparse matrix with exact entries."""
 
-    Attributes
-    ----------
-    name : str
-        Which matrix it is.
-    shape : tuple of int
-        Rows and columns.
-    row, column : numpy.ndarray
-        Where its entries are, row by row, columns increasing; no entry is zero.
-    data : numpy.ndarray
-        The entries, of dtype object: `int` where all are integers, and `Fraction` otherwise.
-    """
-
-    name: MatrixName
-    shape: Tuple[int, int]
-    row: NDArray[np.int64] = field(repr=False)
-    column: NDArray[np.int64] = field(repr=False)
-    data: NDArray[np.object_] = field(repr=False)
+    name: Annotated[MatrixName, "Which matrix it is."]
+    shape: Annotated[Tuple[int, int], "Rows and columns."]
+    row: Annotated[NDArray[np.int64], "The row of each entry, row by row; no entry is zero."] = field(repr=False)
+    column: Annotated[NDArray[np.int64], "Its column."] = field(repr=False)
+    data: Annotated[NDArray[np.object_],
+        "The entries, of dtype object: `int` where all are integers, and `Fraction` otherwise.",
+    ] = field(repr=False)
 
     def to_scipy(self) -> scipy.sparse.csr_array:
         """The matrix for scipy, each entry rounded to the nearest float."""
@@ -136,4 +126,4 @@ def rigidity_matrix(
         column=np.array(columns, dtype=np.int64),
         data=data,
     )
-    return found if exact else found.to_scipy()
+    return found if flag("exact", exact) else found.to_scipy()

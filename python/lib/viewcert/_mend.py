@@ -8,7 +8,7 @@ import shutil
 import tempfile
 import warnings
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Callable, Dict, List, Optional, Tuple, Union
+from typing import TYPE_CHECKING, Annotated, Any, Callable, Dict, List, Optional, Tuple, Union
 
 import numpy as np
 
@@ -25,28 +25,18 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Mended:
-    """What came of following advice; printed, it is a report of two or three lines.
+    """What came of following advice; printed, it is a report of two or three lines."""
 
-    Attributes
-    ----------
-    path : str
-        The copy of the database, with the new pairs.
-    determined : bool
-        Whether its tracks determine all images, if every pair is right.
-    tried : dict
-        How many inliers each pair has that was matched, by the names of its images, in order.
-    before, after : tuple of int
-        How many images each part of the tracks has, the largest first; a single image is no part.
-    photograph : list of two lists of str, optional
-        Two groups of images that need a photograph between them: all that could join them was matched.
-    """
-
-    path: str
-    determined: bool
-    tried: Dict[Tuple[str, str], int]
-    before: Tuple[int, ...]
-    after: Tuple[int, ...]
-    photograph: Optional[List[List[str]]]
+    path: Annotated[str, "The copy of the database, with the new pairs."]
+    determined: Annotated[bool, "Whether its tracks determine all images, if every pair is right."]
+    tried: Annotated[Dict[Tuple[str, str], int],
+        "How many inliers each pair has that was matched, by the names of its images, in order.",
+    ]
+    before: Annotated[Tuple[int, ...], "How many images each part of the tracks had, the largest first."]
+    after: Annotated[Tuple[int, ...], "How many each has now."]
+    photograph: Annotated[Optional[List[List[str]]],
+        "Two groups of images that need a photograph between them: all that could join them was matched.",
+    ]
 
     def __str__(self) -> str:
         held = sum(inliers >= 15 for inliers in self.tried.values())  # What COLMAP's mappers ask of a pair.

@@ -1,7 +1,6 @@
 # The native part. Users take what `viewcert` exports.
 
 import os
-from collections.abc import Callable
 from typing import Any, final
 
 import numpy as np
@@ -25,6 +24,7 @@ __all__ = [
     "about_graph",
     "audit",
     "audit_at_cameras",
+    "bytes_of",
     "check",
     "check_all",
     "check_at_cameras",
@@ -48,6 +48,7 @@ __all__ = [
     "run_checker",
     "run_verify",
     "same_graph",
+    "seconds_of",
     "singular_value",
     "witness",
 ]
@@ -74,6 +75,7 @@ class Graph:
     def sha256(self) -> str: ...
     def labels(self) -> list[int] | list[str]: ...
     def pairs(self) -> NDArray[np.uint32]: ...
+    def picture(self) -> str: ...
 
 def graph_of_integers(pairs: NDArray[np.integer], name: str) -> Graph: ...
 def graph_of_nodes(
@@ -99,19 +101,7 @@ def component_of_pairs(
     pairs: NDArray[np.uint32] | None = None,
 ) -> NDArray[np.int32]: ...
 def read(
-    path: str | os.PathLike[str],
-    *,
-    name: str | None = None,
-    format: str | None = None,
-    variable: str | None = None,
-    pipeline: str | None = None,
-    min_inliers: int | None = None,
-    min_views: int | None = None,
-    max_spread: int | None = None,
-    rigs: bool = True,
-    columns: str | None = None,
-    min_weight: str | None = None,
-    skip_loops: bool = False,
+    path: str | os.PathLike[str], name: str | None, tracks: bool, reading: dict[str, Any]
 ) -> list[Graph]: ...
 def label(graph: Graph) -> tuple[str, str] | None: ...
 def label_graph6(label: str) -> str: ...
@@ -172,18 +162,9 @@ def decide(
     displacements: list[list[int]] | None = None,
     vectors: list[tuple[str, str, str]] | None = None,
     one_frame: bool = False,
-    time_limit: float | None = None,
-    memory_limit: int | None = None,
-    progress: Callable[[str, int, int], object] | None = None,
 ) -> Decided: ...
 def decide_all(
-    graphs: list[Graph],
-    wanted: dict[str, Any],
-    *,
-    threads: int | None = None,
-    time_limit: float | None = None,
-    memory_limit: int | None = None,
-    progress: Callable[[str, int, int], object] | None = None,
+    graphs: list[Graph], wanted: dict[str, Any], *, threads: int | None = None
 ) -> list[Decided | Exception]: ...
 @final
 class Verified:
@@ -390,3 +371,5 @@ def singular_value(
 def audit_at_cameras(at: AtCameras, table: str) -> list[tuple[str, str]]: ...
 def run_verify(arguments: list[str]) -> int: ...
 def run_checker(arguments: list[str]) -> int: ...
+def seconds_of(text: str) -> float | None: ...
+def bytes_of(text: str) -> int | None: ...

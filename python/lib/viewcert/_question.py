@@ -2,35 +2,42 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, Optional, get_args
+from typing import Any, ContextManager, Dict, Optional, Tuple, get_args
 
 from ._arguments import flag, one_of, whole, whole_if
+from ._arguments import limits as bounds_of
 from ._errors import InputError
 from ._graph import Graph
-from ._types import Counting, Model
+from ._limits import limits
+from ._progress import Progress
+from ._types import Counting, MemoryLimit, Model, TimeLimit
 
 
-def wanted(
-    model: str,
+def asked(
     *,
-    seed: int,
-    planar: bool,
-    solutions: Optional[str],
-    rational: bool,
-    numerator: int,
-    denominator: int,
-    prime: Optional[int],
-    contraction: bool,
-    counting: bool,
-) -> Dict[str, Any]:
-    """What is asked, as the native part takes it.
+    model: Optional[Model] = None,
+    seed: int = 1,
+    planar: bool = False,
+    solutions: Optional[Counting] = "quick",
+    rational: bool = False,
+    numerator: int = 9,
+    denominator: int = 4,
+    prime: Optional[int] = None,
+    contraction: bool = True,
+    counting: bool = True,
+    time_limit: TimeLimit = None,
+    memory_limit: MemoryLimit = None,
+    progress: Progress = None,
+) -> Tuple[Dict[str, Any], ContextManager[None]]:
+    """A question as the native part takes it, and what it is asked within.
 
     Raises
     ------
     InputError
         What cannot be asked, or does not go together.
     """
-    one_of("model", model, get_args(Model))
+    if model is not None:
+        one_of("model", model, get_args(Model))
     if solutions is not None and solutions not in get_args(Counting):
         raise InputError(f"solutions={solutions!r}: give 'quick' or 'full', or None, which does not count")
     if flag("planar", planar) and model == "affine":
@@ -40,8 +47,8 @@ def wanted(
     bounds = None
     if flag("rational", rational):
         bounds = whole("numerator", numerator, 1, 100), whole("denominator", denominator, 1, 12)
-    return {
-        "model": model,
+    wanted = {
+        "model": model or "projective",
         "seed": whole("seed", seed, 0, 2**64 - 1),
         "planar": bool(planar),
         "solutions": solutions,
@@ -50,10 +57,17 @@ def wanted(
         "contraction": flag("contraction", contraction),
         "counting": flag("counting", counting),
     }
+    seconds, memory = bounds_of(time_limit, memory_limit)
+    return wanted, limits(time_limit=seconds, memory_limit=memory, progress=progress)
+
+
+def of_pairs(wanted: Dict[str, Any]) -> Dict[str, Any]:
+    """The question about pairs beside which nothing is known, as a verdict keeps it."""
+    return {"wanted": wanted, "parts": None, "displacements": None, "vectors": None, "one_frame": False}
 
 
 def chosen_model(graph: Graph[Any], model: Optional[str]) -> str:
-    """The model that is decided, if none is said: calibrated of camera-point graphs.
+    """The model that is decided, if none is named: calibrated of camera-point graphs.
 
     Raises
     ------

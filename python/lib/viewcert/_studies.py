@@ -5,25 +5,21 @@ from __future__ import annotations
 import json
 import os
 from dataclasses import dataclass, field
-from typing import Any, Dict, Generic, Iterator, List, Literal, Mapping, Optional, Sequence, Tuple, Union
+from typing import Annotated, Any, Dict, Generic, Iterator, List, Literal, Mapping, Optional, Sequence, Tuple, Union
 
 from . import _native
+from ._answers import of_said
 from ._arguments import one_of, whole
 from ._errors import Error, InputError
 from ._graph import Graph, Path, as_graph
-from ._kept import Kept
-from ._question import wanted
-from ._tables import json_of, rows_of
+from ._pickled import found_of
+from ._question import asked, of_pairs
+from ._tables import html_of, json_of, rows_of
 from ._types import Decided, N, RulingWord
 from ._verdict import Verdict, verify
 
 #: From the model that determines least to the one that determines most.
 _MODELS: Tuple[Decided, ...] = ("affine", "projective", "calibrated")
-
-
-def _found(verdict: Verdict[Any]) -> _native.Decided:
-    native = verdict._native
-    return native.again() if isinstance(native, Kept) else native
 
 
 @dataclass(frozen=True)
@@ -45,40 +41,22 @@ class _Said:
 
 @dataclass(frozen=True)
 class Change(Generic[N]):
-    """Components of one model that are one in the next.
+    """Components of one model that are one in the next."""
 
-    Attributes
-    ----------
-    models : tuple of str
-        The two models.
-    component : int
-        Its place in the components of the second model.
-    joins : tuple of int
-        Those of the first model that it consists of, as places.
-    at : tuple
-        The nodes at which these touch.
-    """
-
-    models: Tuple[Decided, Decided]
-    component: int
-    joins: Tuple[int, ...]
-    at: Tuple[N, ...]
+    models: Annotated[Tuple[Decided, Decided], "The two models."]
+    component: Annotated[int, "Its place in the components of the second model."]
+    joins: Annotated[Tuple[int, ...], "Those of the first model that it consists of, as places."]
+    at: Annotated[Tuple[N, ...], "The nodes at which these touch."]
 
 
 @dataclass(frozen=True)
 class Models(_Said, Generic[N]):
-    """The verdicts of all models on one graph, side by side: ``models["affine"]``.
+    """The verdicts of all models on one graph, side by side: ``models["affine"]``."""
 
-    Attributes
-    ----------
-    verdicts : tuple of Verdict
-        Affine, projective, calibrated: each model determines no more than the next.
-    changes : tuple of Change
-        What each model joins that the one before did not.
-    """
-
-    verdicts: Tuple[Verdict[N], ...]
-    changes: Tuple[Change[N], ...]
+    verdicts: Annotated[Tuple[Verdict[N], ...],
+        "Affine, projective, calibrated: each model determines no more than the next.",
+    ]
+    changes: Annotated[Tuple[Change[N], ...], "What each model joins that the one before did not."]
 
     def __getitem__(self, model: Decided) -> Verdict[N]:
         one_of("model", model, _MODELS)
@@ -93,6 +71,13 @@ class Models(_Said, Generic[N]):
     def __repr__(self) -> str:
         values = ", ".join(f"{verdict.model} {verdict.value}" for verdict in self.verdicts)
         return f"<viewcert.Models {values}>"
+
+    def _repr_html_(self) -> str:
+        heads = ["model", "verdict", "strength", "rank", "components"]
+        rows = (
+            [one.model, one.value, one.strength, f"{one.rank} of {one.required}", str(len(one))] for one in self.verdicts
+        )
+        return html_of(heads, rows)
 
 
 def models(graph: Any, *, seed: int = 1, **known: Any) -> Models[Any]:
@@ -122,7 +107,7 @@ def models(graph: Any, *, seed: int = 1, **known: Any) -> Models[Any]:
     if given.cameras is not None:
         raise InputError("models: observations are directions of known rotations, which only the calibrated model has")
     verdicts = tuple(verify(given, model=model, seed=seed, **known) for model in _MODELS)
-    said = _native.models([_found(verdict) for verdict in verdicts])
+    said = _native.models([found_of(verdict._native) for verdict in verdicts])
     by_text = given._by_text()
     changes = tuple(
         Change(
@@ -138,38 +123,20 @@ def models(graph: Any, *, seed: int = 1, **known: Any) -> Models[Any]:
 
 @dataclass(frozen=True)
 class Audit(_Said):
-    """Floating point beside the exact verdict.
+    """Floating point beside the exact verdict."""
 
-    Attributes
-    ----------
-    agree : bool
-        Whether both sides agree at every draw, and on the number of components at the first.
-    verdict : Verdict
-        The exact side.
-    float_value : {'solvable', 'not-solvable', 'undecided'}
-        What floating point says at the first draw: that of finite solvability.
-    smallest_eigenvalue, smallest_singular_value : float
-        Of J^T J, and of J.
-    margin_decades : float, optional
-        How many powers of ten lie between the eigenvalue and the tolerance.
-    float_components : int, optional
-        How many components floating point finds.
-    draws, misjudged : int
-        How many draws of cameras there were, and at how many of them its verdict was wrong.
-    reason : str, optional
-        Why the sides do not agree, as far as it is known.
-    """
-
-    agree: bool
-    verdict: Verdict[Any]
-    float_value: Literal["solvable", "not-solvable", "undecided"]
-    smallest_eigenvalue: float
-    smallest_singular_value: float
-    margin_decades: Optional[float]
-    float_components: Optional[int]
-    draws: int
-    misjudged: int
-    reason: Optional[str]
+    agree: Annotated[bool, "Whether both sides agree at every draw, and on the number of components at the first."]
+    verdict: Annotated[Verdict[Any], "The exact side."]
+    float_value: Annotated[Literal["solvable", "not-solvable", "undecided"],
+        "What floating point says at the first draw: that of finite solvability.",
+    ]
+    smallest_eigenvalue: Annotated[float, "The smallest eigenvalue of J^T J."]
+    smallest_singular_value: Annotated[float, "The smallest singular value of J."]
+    margin_decades: Annotated[Optional[float], "How many powers of ten lie between the eigenvalue and the tolerance."]
+    float_components: Annotated[Optional[int], "How many components floating point finds."]
+    draws: Annotated[int, "How many draws of cameras there were."]
+    misjudged: Annotated[int, "At how many of them floating point was wrong."]
+    reason: Annotated[Optional[str], "Why the sides do not agree, as far as it is known."]
 
     def __repr__(self) -> str:
         says = "agree" if self.agree else "DISAGREE"
@@ -212,44 +179,28 @@ def audit(
     verdict = graph if isinstance(graph, Verdict) else verify(graph, model="projective", seed=seed)
     if verdict.model != "projective":
         raise InputError(f"audit: the float test is of the projective model, not of the {verdict.model} one")
-    said = _native.audit(_found(verdict), tolerance, draws, seed)
+    said = _native.audit(found_of(verdict._native), tolerance, draws, seed)
     found = json.loads(said[0])
     doubles = found["float"]
-    return Audit(
-        *said,
-        agree=found["agree"],
+    return of_said(
+        Audit,
+        {**doubles, **found},
+        _json=said[0],
+        _text=said[1],
         verdict=verdict,
         float_value=doubles["verdict"],
-        smallest_eigenvalue=doubles["smallest_eigenvalue"],
-        smallest_singular_value=doubles["smallest_singular_value"],
-        margin_decades=doubles["margin_decades"],
         float_components=doubles["components"],
-        draws=found["draws"],
-        misjudged=found["misjudged"],
-        reason=found["reason"],
     )
 
 
 @dataclass(frozen=True)
 class Ruling(_Said):
-    """What is so of one claim.
+    """What is so of one claim."""
 
-    Attributes
-    ----------
-    row : int
-        Its number, from 1.
-    ruling : {'confirmed', 'refuted', 'not decidable'}
-        What came of it.
-    reason : str
-        Why, in words.
-    verdict : Verdict
-        The exact answer; its :meth:`~Verdict.certificate` proves it.
-    """
-
-    row: int
-    ruling: RulingWord
-    reason: str
-    verdict: Verdict[Any]
+    row: Annotated[int, "Its number, from 1."]
+    ruling: Annotated[RulingWord, "What came of it."]
+    reason: Annotated[str, "Why, in words."]
+    verdict: Annotated[Verdict[Any], "The exact answer; its :meth:`~Verdict.certificate` proves it."]
 
     def __repr__(self) -> str:
         return f"<viewcert.Ruling row {self.row} {self.ruling}: {self.verdict.graph.name}>"
@@ -318,18 +269,7 @@ def audit_claims(
     claims = _native.Claims(text, list(ignore))
     named = dict(graphs) if isinstance(graphs, Mapping) else {}
     folder = None if graphs is None or isinstance(graphs, Mapping) else os.fspath(graphs)
-    asked = wanted(
-        "projective",
-        seed=seed,
-        planar=False,
-        solutions="quick",
-        rational=False,
-        numerator=9,
-        denominator=4,
-        prime=None,
-        contraction=True,
-        counting=True,
-    )
+    wanted, _ = asked(seed=seed)
     found: List[Any] = []
     for number in range(len(claims)):
         try:
@@ -339,7 +279,7 @@ def audit_claims(
                 if is_name and called not in named:
                     raise InputError(f"unknown graph {called!r}: `graphs` has none of that name")
                 graph = named.get(called)
-            found.append(_ruled(claims, number, asked, graph, folder))
+            found.append(_ruled(claims, number, wanted, graph, folder))
         except Error as error:
             if errors == "raise":
                 raise type(error)(f"row {number + 1}: {error}") from None
@@ -348,13 +288,13 @@ def audit_claims(
 
 
 def _ruled(
-    claims: _native.Claims, number: int, asked: Dict[str, Any], graph: Any, folder: Optional[str]
+    claims: _native.Claims, number: int, wanted: Dict[str, Any], graph: Any, folder: Optional[str]
 ) -> Ruling:
     given = None if graph is None else as_graph(graph)
     native, decided, said = claims.rule(
-        number, asked, graph=None if given is None else given._native, folder=folder
+        number, wanted, graph=None if given is None else given._native, folder=folder
     )
     found = json.loads(said[0])
-    question = {"wanted": {**asked, "model": decided.model}, "parts": None, "displacements": None, "vectors": None, "one_frame": False}
+    question = of_pairs({**wanted, "model": decided.model})
     verdict = Verdict._of(Graph._of(native) if given is None else given, decided, question)
     return Ruling(*said, number + 1, found["ruling"], found["reason"], verdict)

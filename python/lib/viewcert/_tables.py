@@ -3,13 +3,23 @@
 from __future__ import annotations
 
 import csv
+import html
 import io
 import json
 import os
-from typing import Any, Dict, Iterable, List, Mapping
+from typing import Any, Dict, Iterable, List, Mapping, Sequence
 
 from ._convert import table as frame_of
 from ._errors import InputError
+
+
+def html_of(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """A table for a notebook."""
+
+    def row(cells: Sequence[str], kind: str) -> str:
+        return f"<tr>{''.join(f'<{kind}>{html.escape(cell)}</{kind}>' for cell in cells)}</tr>"
+
+    return f"<table>{row(heads, 'th')}{''.join(row(cells, 'td') for cells in rows)}</table>"
 
 
 def rows_of(table: Any) -> List[Dict[str, Any]]:

@@ -3,12 +3,42 @@
 from __future__ import annotations
 
 from decimal import Decimal
-from typing import Hashable, Literal, Optional, Sequence, TypedDict, TypeVar, Union
+from typing import AbstractSet, Any, Hashable, Iterator, Literal, Optional, Protocol, Sequence, TypedDict, TypeVar, Union
 
 from ._progress import Progress
 
 #: What a user calls his images.
 N = TypeVar("N", bound=Hashable)
+
+_N = TypeVar("_N", bound=Hashable, covariant=True)
+
+
+class Networkx(Protocol[_N]):
+    """A graph of networkx, by which its nodes keep their type."""
+
+    def __iter__(self) -> Iterator[_N]: ...
+    def is_multigraph(self) -> bool: ...
+
+
+class _Array(Protocol):
+    def __array__(self) -> Any: ...
+
+
+class _Sparse(Protocol):
+    def tocsr(self) -> Any: ...
+
+
+class _Rustworkx(Protocol):
+    def edge_list(self) -> Any: ...
+
+
+class _Frame(Protocol):
+    @property
+    def columns(self) -> Any: ...
+
+
+#: A graph whose nodes have no type. No graph of networkx is among these: with two choices its nodes would lose theirs.
+Other = Union[Iterator[Any], AbstractSet[Any], Sequence[Any], _Array, _Sparse, _Rustworkx, _Frame]
 
 #: What is known of the cameras.
 Model = Literal["projective", "calibrated", "affine", "focal"]
@@ -63,7 +93,14 @@ RulingWord = Literal["confirmed", "refuted", "not decidable"]
 MatrixName = Literal["J_P", "J", "N", "R"]
 
 
-class Asked(TypedDict, total=False):
+#: Seconds, or a text such as ``'5m'``.
+TimeLimit = Union[float, str, None]
+
+#: Bytes, or a text such as ``'2G'``.
+MemoryLimit = Union[int, str, None]
+
+
+class Question(TypedDict, total=False):
     """What is asked of a graph, and within which limits: arguments of :func:`viewcert.verify`."""
 
     model: Optional[Model]
@@ -76,20 +113,25 @@ class Asked(TypedDict, total=False):
     prime: Optional[int]
     contraction: bool
     counting: bool
-    time_limit: Optional[float]
-    memory_limit: Optional[int]
+    time_limit: TimeLimit
+    memory_limit: MemoryLimit
     progress: Progress
 
 
-class Reading(TypedDict, total=False):
+class Filters(TypedDict, total=False):
+    """Which pairs and tracks of a database count: arguments of :func:`viewcert.lists`."""
+
+    pipeline: Optional[Pipeline]
+    min_inliers: Optional[int]
+    min_views: Optional[int]
+    max_spread: Optional[int]
+    rigs: bool
+
+
+class Reading(Filters, total=False):
     """How a file is read: arguments of :func:`viewcert.read`."""
 
     variable: Optional[str]
-    pipeline: Optional[Pipeline]
-    min_inliers: Optional[int]
-    min_views: int
-    max_spread: int
-    rigs: bool
     columns: Optional[Sequence[Union[str, int]]]
     min_weight: Union[str, int, Decimal, None]
     skip_loops: bool

@@ -10,6 +10,7 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import (
     TYPE_CHECKING,
+    Annotated,
     Any,
     Dict,
     FrozenSet,
@@ -32,16 +33,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
-from ._arguments import limits, path_of, whole
+from ._answers import of_said
+from ._arguments import flag, path_of, taking, whole
 from ._convert import Node
-from ._draw import plot, positions, to_tikz
+from ._draw import Drawn, plot, positions, to_tikz
 from ._errors import Absent, InputError
-from ._graph import Graph, Path, as_graph, numbered
-from ._kept import Kept, Question
+from ._graph import Graph, OfNodes, Path, as_graph, numbered
 from ._native import Decided
-from ._progress import Progress, shown
-from ._question import chosen_model, wanted
-from ._types import Asked, BaseLinesValue, Counting, Model, N, Strength, Value
+from ._pickled import Pickled, found_of
+from ._question import asked, chosen_model
+from ._types import BaseLinesValue, N, Other, Question, Strength, Value
 from ._types import Decided as DecidedModel
 from ._words import in_python, noted, shown_notes
 
@@ -55,39 +56,19 @@ _log = logging.getLogger("viewcert")
 
 @dataclass(frozen=True)
 class Joint(Generic[N]):
-    """Two components that touch.
+    """Two components that touch."""
 
-    Attributes
-    ----------
-    components : tuple of int
-        The two, as places in `Verdict.components`.
-    how : str
-        How they touch, in words.
-    nodes : tuple
-        The nodes where they touch.
-    pairs : tuple of pairs
-        Pairs that lead from the first to the second.
-    through : tuple of triples
-        Nodes in neither, with a pair to each: between the ends of these pairs.
-    inliers : tuple of int, optional
-        Of each pair, in a database.
-    freedom : int
-        How many degrees of freedom the joint leaves.
-    meaning : str
-        The same in words.
-    strength : str
-        ``'proof'`` or ``'error-bound'``.
-    """
-
-    components: Tuple[int, int]
-    how: str
-    nodes: Tuple[N, ...]
-    pairs: Tuple[Tuple[N, N], ...]
-    through: Tuple[Tuple[N, N, N], ...]
-    inliers: Optional[Tuple[int, ...]]
-    freedom: int
-    meaning: str
-    strength: Strength
+    components: Annotated[Tuple[int, int], "The two, as places in `Verdict.components`."]
+    how: Annotated[str, "How they touch, in words."]
+    nodes: Annotated[Tuple[N, ...], "The nodes where they touch."]
+    pairs: Annotated[Tuple[Tuple[N, N], ...], "Pairs that lead from the first to the second."]
+    through: Annotated[Tuple[Tuple[N, N, N], ...],
+        "Nodes in neither, with a pair to each: between the ends of these pairs.",
+    ]
+    inliers: Annotated[Optional[Tuple[int, ...]], "Of each pair, in a database."]
+    freedom: Annotated[int, "How many degrees of freedom the joint leaves."]
+    meaning: Annotated[str, "The same in words."]
+    strength: Annotated[Strength, "``'proof'`` or ``'error-bound'``."]
 
 
 @dataclass(frozen=True)
@@ -95,23 +76,14 @@ class Solutions:
     """How many sets of cameras there are, at generic cameras, over the complex numbers.
 
     Those that are real may be fewer.
-
-    Attributes
-    ----------
-    at_least : int
-        A lower bound.
-    at_most : int, optional
-        An upper bound, if one is known.
-    strength : str
-        How strong the bounds are: ``'proof'``, or ``'error-bound'``.
-    full_may_tell_more : bool
-        Whether ``solutions='full'``, which takes about a second more, often settles what is open.
     """
 
-    at_least: int
-    at_most: Optional[int]
-    strength: Strength
-    full_may_tell_more: bool = False
+    at_least: Annotated[int, "A lower bound."]
+    at_most: Annotated[Optional[int], "An upper bound, if one is known."]
+    strength: Annotated[Strength, "How strong the bounds are: ``'proof'``, or ``'error-bound'``."]
+    full_may_tell_more: Annotated[bool,
+        "Whether ``solutions='full'``, which takes about a second more, often settles what is open.",
+    ] = False
 
     @property
     def exactly(self) -> Optional[int]:
@@ -121,70 +93,44 @@ class Solutions:
 
 @dataclass(frozen=True)
 class Planar:
-    """What a graph determines if all centres lie in one plane. All of it is proved.
+    """What a graph determines if all centres lie in one plane. All of it is proved."""
 
-    Attributes
-    ----------
-    value : str
-        ``'solvable'`` (the cameras are unique, in all models) or ``'not-finite-solvable'``.
-    rank : int
-        The rank for centres that are generic in a plane.
-    required : int
-        The rank without which there are infinitely many sets of cameras.
-    """
-
-    value: Literal["solvable", "not-finite-solvable"]
-    rank: int
-    required: int
+    value: Annotated[Literal["solvable", "not-finite-solvable"],
+        "``'solvable'`` (the cameras are unique, in all models) or ``'not-finite-solvable'``.",
+    ]
+    rank: Annotated[int, "The rank for centres that are generic in a plane."]
+    required: Annotated[int, "The rank without which there are infinitely many sets of cameras."]
 
 
 @dataclass(frozen=True)
 class BaseLines:
     """What frames of rigs add where base lines are unknown: one vector for a sensor, the same in all
     frames, turned with each.
-
-    Attributes
-    ----------
-    value : str
-        ``'solvable'`` (all positions are unique) or ``'not-finite-solvable'``, both proved; or
-        ``'open'``.
-    frames : int
-        Frames of two images or more.
-    unknown : int
-        Base lines that are not known.
-    rank : int
-        The rank at drawn positions, which the generic rank is not below.
-    rank_at_most : int
-        What it is not above.
-    required : int
-        The rank at which all positions are unique.
-    parts : int
-        How many parts move against each other: so many at least, where the rank is proved.
-    parts_proved : bool
-        Whether there are just so many.
-    about_one_axis : bool
-        Whether all positions are unique too if all frames turn about one axis, as a vehicle's do.
-    without_turns : bool
-        Whether they are if frames do not turn against each other, as those of a drone on one line.
-    groups_not_turned : int, optional
-        How many groups of images neither pairs nor known poses turn against each other, if there
-        are several: the value is ``'open'`` then.
-    condition : str, optional
-        What ``'solvable'`` rests on: that every pair is right, and frames turn.
     """
 
-    value: BaseLinesValue
-    frames: int
-    unknown: int
-    rank: int
-    rank_at_most: int
-    required: int
-    parts: int
-    parts_proved: bool
-    about_one_axis: bool
-    without_turns: bool
-    groups_not_turned: Optional[int] = None
-    condition: Optional[str] = None
+    value: Annotated[BaseLinesValue,
+        "``'solvable'`` (all positions are unique) or ``'not-finite-solvable'``, both proved; or ``'open'``.",
+    ]
+    frames: Annotated[int, "Frames of two images or more."]
+    unknown: Annotated[int, "Base lines that are not known."]
+    rank: Annotated[int, "The rank at drawn positions, which the generic rank is not below."]
+    rank_at_most: Annotated[int, "What it is not above."]
+    required: Annotated[int, "The rank at which all positions are unique."]
+    parts: Annotated[int, "How many parts move against each other: so many at least, where the rank is proved."]
+    parts_proved: Annotated[bool, "Whether there are just so many."]
+    about_one_axis: Annotated[bool,
+        "Whether all positions are unique too if all frames turn about one axis, as a vehicle's do.",
+    ]
+    without_turns: Annotated[bool,
+        "Whether they are if frames do not turn against each other, as those of a drone on one line.",
+    ]
+    groups_not_turned: Annotated[Optional[int],
+        "How many groups of images neither pairs nor known poses turn against each other, if there are several: the "
+        "value is ``'open'`` then.",
+    ] = None
+    condition: Annotated[Optional[str],
+        "What ``'solvable'`` rests on: that every pair is right, and frames turn.",
+    ] = None
 
 
 class Verdict(Generic[N]):
@@ -213,8 +159,8 @@ class Verdict(Generic[N]):
     __slots__ = ("_graph", "_native", "_question", "_components", "_joints")
 
     _graph: Graph[N]
-    _native: Union[Decided, Kept]
-    _question: Question
+    _native: Union[Decided, Pickled]
+    _question: Dict[str, Any]
     _components: Optional[List[FrozenSet[N]]]
     _joints: Optional[Tuple[Joint[N], ...]]
 
@@ -223,7 +169,7 @@ class Verdict(Generic[N]):
 
     @classmethod
     def _of(
-        cls, graph: Graph[Any], native: Union[Decided, Kept], question: Question
+        cls, graph: Graph[Any], native: Union[Decided, Pickled], question: Dict[str, Any]
     ) -> Verdict[Any]:
         verdict: Verdict[Any] = cls.__new__(cls)
         for name, value in zip(cls.__slots__, (graph, native, question, None, None)):
@@ -231,7 +177,7 @@ class Verdict(Generic[N]):
         return verdict
 
     def __reduce__(self) -> Tuple[Any, ...]:
-        return _restored, (self._graph, self._question, Kept.said(self._native))
+        return _restored, (self._graph, self._question, Pickled.said(self._native))
 
     def __copy__(self) -> Verdict[N]:
         return self
@@ -378,12 +324,7 @@ class Verdict(Generic[N]):
             return None
         # From 2^53 on numbers are strings.
         most = found["at_most"]
-        return Solutions(
-            int(found["at_least"]),
-            None if most is None else int(most),
-            found["strength"],
-            found.get("full_may_tell_more", False),
-        )
+        return of_said(Solutions, found, at_least=int(found["at_least"]), at_most=None if most is None else int(most))
 
     @property
     def conditions(self) -> Tuple[str, ...]:
@@ -400,7 +341,7 @@ class Verdict(Generic[N]):
         found = self.to_dict().get("planar")
         if found is None:
             return None
-        return Planar(found["verdict"], found["rank"], found["rank_required"])
+        return of_said(Planar, found, value=found["verdict"], required=found["rank_required"])
 
     @property
     def base_lines(self) -> Optional[BaseLines]:
@@ -409,8 +350,7 @@ class Verdict(Generic[N]):
         found = self.to_dict().get("base_lines")
         if found is None:
             return None
-        others = {name: found[name] for name in found if name not in ("verdict", "rank_required")}
-        return BaseLines(found["verdict"], required=found["rank_required"], **others)
+        return of_said(BaseLines, found, value=found["verdict"], required=found["rank_required"])
 
     @property
     def notes(self) -> List[str]:
@@ -576,16 +516,13 @@ class Verdict(Generic[N]):
                 return tuple(by_text[text] for text in texts)
 
             found = tuple(
-                Joint(
+                of_said(
+                    Joint,
+                    joint,
                     components=(joint["between"][0] - 1, joint["between"][1] - 1),
-                    how=joint["how"],
                     nodes=named(joint["images"]),
                     pairs=tuple(named(pair) for pair in joint["pairs"]),
                     through=tuple(named(path) for path in joint["through"]),
-                    inliers=None if joint["inliers"] is None else tuple(joint["inliers"]),
-                    freedom=joint["freedom"],
-                    meaning=joint["meaning"],
-                    strength=joint["strength"],
                 )
                 for joint in self.to_dict()["joints"]
             )
@@ -603,6 +540,7 @@ class Verdict(Generic[N]):
         compact : bool
             Whether it is one line.
         """
+        embed_graph, compact = flag("embed_graph", embed_graph), flag("compact", compact)
         return self._native.certificate(embed_graph=embed_graph, compact=compact)
 
     def save(self, path: Path, *, embed_graph: bool = False) -> None:
@@ -613,18 +551,18 @@ class Verdict(Generic[N]):
         InputError
             If it cannot be written; the file is then as it was before.
         """
-        self._native.write(path_of("path", path), self.certificate(embed_graph=embed_graph))
+        Decided.write(path_of("path", path), self.certificate(embed_graph=embed_graph))
 
     def to_dict(self, *, list_components: bool = False) -> Dict[str, Any]:
         """What ``verify --json`` prints (with `list_components`: and ``--components``). Components
         are counted from 1 there, and nodes are texts."""
-        answer = self._native.report("json", list_components=list_components)
+        answer = self._native.report("json", list_components=flag("list_components", list_components))
         found: Dict[str, Any] = json.loads(answer)
         return found
 
     def report(self, *, list_components: bool = False) -> str:
         """What ``verify`` prints for people."""
-        return self._native.report("text", list_components=list_components).decode()
+        return self._native.report("text", list_components=flag("list_components", list_components)).decode()
 
     def page(self) -> str:
         """The web page of ``verify draw``, which needs no network."""
@@ -642,7 +580,7 @@ class Verdict(Generic[N]):
         TooLarge
             Of a graph with more than 1,000 nodes, or with points.
         """
-        points, _ = positions(self)
+        points, _ = positions(self._drawn())
         return {node: (x, y) for node, (x, y) in zip(self._graph.nodes, points.tolist())}
 
     def plot(
@@ -676,7 +614,7 @@ class Verdict(Generic[N]):
         TooLarge
             Without `pos`, of a graph with more than 1,000 nodes, or with points.
         """
-        return plot(self, ax, pos=pos, labels=labels, node_size=node_size)
+        return plot(self._drawn(), ax, pos, labels, node_size)
 
     def to_tikz(
         self,
@@ -705,7 +643,12 @@ class Verdict(Generic[N]):
           \\draw[viewcerta] (v0) -- (v1);
         \\end{tikzpicture}
         """
-        return to_tikz(self, pos=pos, labels=labels, width=width)
+        return to_tikz(self._drawn(), pos, labels, width)
+
+    def _drawn(self) -> Drawn:
+        title = f"{self._graph.name}: {self.value}"
+        of_node, of_pair = self.component_of_node().tolist(), self.component_of_pair().tolist()
+        return Drawn(self._graph, title, found_of(self._native), of_node, of_pair)
 
     def __repr__(self) -> str:
         count = self._native.component_count()
@@ -741,57 +684,37 @@ def coordinates(displacements: Any) -> Optional[List[Tuple[str, str, str]]]:
     return None
 
 
-def _restored(graph: Graph[Any], question: Question, said: Dict[str, Any]) -> Verdict[Any]:
+def _restored(graph: Graph[Any], question: Dict[str, Any], said: Dict[str, Any]) -> Verdict[Any]:
     """A verdict that was pickled."""
-    return Verdict._of(graph, Kept(graph._native, question, said), question)
+    return Verdict._of(graph, Pickled(graph._native, question, said), question)
 
 
 #: A graph or verdict whose nodes have a type.
-Given = Union[Verdict[N], Graph[N], Sequence[Tuple[N, N]]]
+Given = Union[Verdict[N], OfNodes[N]]
+
+#: Sets of nodes, or pairs of nodes with the vectors between them.
+Displacements = Union[Mapping[Tuple[N, N], Sequence[Number]], Iterable[Iterable[N]], None]
 
 
 @overload
 def verify(
-    graph: Given[N],
-    *,
-    parts: Optional[Iterable[Iterable[N]]] = ...,
-    displacements: Union[Mapping[Tuple[N, N], Sequence[Number]], Iterable[Iterable[N]], None] = ...,
-    one_frame: bool = ...,
-    name: Optional[str] = ...,
-    **asked: Unpack[Asked],
+    graph: Given[N], *, parts: Optional[Iterable[Iterable[N]]] = ..., displacements: Displacements[N] = ...,
+    one_frame: bool = ..., name: Optional[str] = ..., **question: Unpack[Question],
 ) -> Verdict[N]: ...
 @overload
 def verify(
-    graph: Any,
-    *,
-    parts: Optional[Iterable[Iterable[Any]]] = ...,
-    displacements: Union[Mapping[Tuple[Any, Any], Sequence[Number]], Iterable[Iterable[Any]], None] = ...,
-    one_frame: bool = ...,
-    name: Optional[str] = ...,
-    **asked: Unpack[Asked],
+    graph: Other, *, parts: Optional[Iterable[Iterable[Any]]] = ..., displacements: Displacements[Any] = ...,
+    one_frame: bool = ..., name: Optional[str] = ..., **question: Unpack[Question],
 ) -> Verdict[Any]: ...
+@taking(Question, asked)
 def verify(
     graph: Any,
     *,
-    model: Optional[Model] = None,
-    seed: int = 1,
-    planar: bool = False,
-    solutions: Optional[Counting] = "quick",
-    rational: bool = False,
-    numerator: int = 9,
-    denominator: int = 4,
-    prime: Optional[int] = None,
-    contraction: bool = True,
-    counting: bool = True,
     parts: Optional[Iterable[Iterable[Node]]] = None,
-    displacements: Union[
-        Mapping[Tuple[Any, Any], Sequence[Number]], Iterable[Iterable[Node]], None
-    ] = None,
+    displacements: Displacements[Any] = None,
     one_frame: bool = False,
     name: Optional[str] = None,
-    time_limit: Optional[float] = None,
-    memory_limit: Optional[int] = None,
-    progress: Progress = None,
+    **question: Unpack[Question],
 ) -> Verdict[Any]:
     """Decides exactly whether a viewing graph determines its cameras.
 
@@ -842,10 +765,10 @@ def verify(
         it.
     name : str, optional
         What reports and certificates call the graph.
-    time_limit : float, optional
-        In seconds.
-    memory_limit : int, optional
-        In bytes, for the large matrices; by default three quarters of the machine's memory.
+    time_limit : float or str, optional
+        In seconds, or a text such as ``'90s'``, ``'5m'`` or ``'1h'``.
+    memory_limit : int or str, optional
+        In bytes, or a text such as ``'2G'``, for the large matrices; by default three quarters of the machine's memory.
     progress : callable or bool, optional
         Called as ``progress(what, done, total)`` some twenty times a second; True shows a bar.
 
@@ -881,18 +804,8 @@ def verify(
     'solvable'
     """
     given = as_graph(graph, name)
-    asked = wanted(
-        chosen_model(given, model),
-        seed=seed,
-        planar=planar,
-        solutions=solutions,
-        rational=rational,
-        numerator=numerator,
-        denominator=denominator,
-        prime=prime,
-        contraction=contraction,
-        counting=counting,
-    )
+    wanted, within = asked(**question)
+    wanted["model"] = chosen_model(given, question.get("model"))
     points = given.cameras is not None
     known = None if parts is None else numbered(given, parts)
     if known and points:
@@ -902,28 +815,17 @@ def verify(
         refused = {
             "parts": bool(known),
             "tracks": points,
-            "planar=True": planar,
+            "planar=True": wanted["planar"],
         }
-        for other in (other for other, asked_ in refused.items() if asked_):
+        for other in (other for other, is_asked in refused.items() if is_asked):
             raise InputError(f"displacements: not with {other}; leave out one of the two")
-    seconds, memory = limits(time_limit, memory_limit)
-    vectors = coordinates(displacements)
-    if one_frame and not groups:
+    if flag("one_frame", one_frame) and not groups:
         raise InputError("one_frame: no displacements are given that could have another frame; leave it out")
-    question = {"wanted": asked, "parts": known, "displacements": groups, "vectors": vectors, "one_frame": one_frame}
-    with shown(progress) as callback:
-        native = _native.decide(
-            given._native,
-            asked,
-            parts=known,
-            displacements=groups,
-            vectors=vectors,
-            one_frame=one_frame,
-            time_limit=seconds,
-            memory_limit=memory,
-            progress=callback,
-        )
-    verdict = Verdict._of(given, native, question)
+    vectors = coordinates(displacements)
+    beside: Dict[str, Any] = {"parts": known, "displacements": groups, "vectors": vectors, "one_frame": bool(one_frame)}
+    with within:
+        native = _native.decide(given._native, wanted, **beside)
+    verdict = Verdict._of(given, native, {"wanted": wanted, **beside})
     noted(given.name, native.notes[len(given._native.notes) :])
     _log.debug("%s: %r in %.3f s", given.name, verdict, native.seconds)
     return verdict

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
-from typing import Any, Dict, Generic, List, Optional, Tuple, overload
+from typing import Annotated, Any, Dict, Generic, List, Optional, Tuple, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
 from ._act import _decided
-from ._arguments import whole
+from ._arguments import flag, whole
 from ._errors import Absent, InputError, Undecided
-from ._kept import Kept
-from ._types import N
-from ._verdict import Verdict
+from ._pickled import found_of
+from ._types import N, Other
+from ._verdict import Given
 from ._words import in_python
 
 #: Cameras as exact numbers: integers or fractions, of shape (n, 3, 4).
@@ -74,21 +74,12 @@ def _minors(camera: NDArray[Any], omitted: int) -> List[Any]:
 class Witness(Generic[N]):
     """Two families of cameras with the same fundamental matrices on all pairs of the graph, of which none is
     the other one times one 4 x 4 matrix: exact, modulo a prime.
-
-    Attributes
-    ----------
-    prime : int
-        The modulus.
-    nodes : tuple
-        The nodes, in the order of the cameras.
-    first, second : numpy.ndarray
-        Cameras as least residues, ``uint64`` of shape (n, 3, 4).
     """
 
-    prime: int
-    nodes: Tuple[N, ...]
-    first: NDArray[np.uint64]
-    second: NDArray[np.uint64]
+    prime: Annotated[int, "The modulus."]
+    nodes: Annotated[Tuple[N, ...], "The nodes, in the order of the cameras."]
+    first: Annotated[NDArray[np.uint64], "Cameras as least residues, ``uint64`` of shape (n, 3, 4)."]
+    second: Annotated[NDArray[np.uint64], "Other cameras."]
 
     def fundamental(self, a: N, b: N) -> Tuple[Exact, Exact]:
         """The fundamental matrices of two nodes in both families, as least residues, the first entry that is not
@@ -128,9 +119,9 @@ def _place(nodes: Tuple[Any, ...], node: Any) -> int:
 
 
 @overload
-def witness(verdict: Verdict[N], *, full: bool = ..., seed: Optional[int] = ...) -> Optional[Witness[N]]: ...
+def witness(verdict: Given[N], *, full: bool = ..., seed: Optional[int] = ...) -> Optional[Witness[N]]: ...
 @overload
-def witness(verdict: Any, *, full: bool = ..., seed: Optional[int] = ...) -> Optional[Witness[Any]]: ...
+def witness(verdict: Other, *, full: bool = ..., seed: Optional[int] = ...) -> Optional[Witness[Any]]: ...
 def witness(verdict: Any, *, full: bool = False, seed: Optional[int] = None) -> Any:
     """Two sets of cameras that have the same fundamental matrices, of a graph with finitely many solutions.
 
@@ -183,14 +174,13 @@ def witness(verdict: Any, *, full: bool = False, seed: Optional[int] = None) -> 
         return None
     wanted = dict(verdict._question["wanted"])
     seed = wanted["seed"] if seed is None else whole("seed", seed, 0, 2**64 - 1)
-    native = verdict._native
-    if (full and wanted["solutions"] != "full") or wanted["solutions"] is None or seed != wanted["seed"]:
+    if (flag("full", full) and wanted["solutions"] != "full") or wanted["solutions"] is None or seed != wanted["seed"]:
         question = {name: value for name, value in verdict._question.items() if name != "wanted"}
         wanted["solutions"] = "full" if full else wanted["solutions"] or "quick"
         wanted["seed"] = seed
         found = _native.decide(verdict.graph._native, wanted, **question)
     else:
-        found = native.again() if isinstance(native, Kept) else native
+        found = found_of(verdict._native)
     text, (why, words) = _native.witness(found, seed=seed)
     if text is None:
         if why == "one":

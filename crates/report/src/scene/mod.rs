@@ -79,8 +79,19 @@ impl Scene {
     /// A graph with the components of its verdict. O(n + m log n), and for tracks O(k log k) with k pairs of
     /// images that see a point together, with repetition.
     pub fn new(input: &NamedGraph, verdict: &Verdict) -> Self {
+        let mut scene = Self::with(input, &verdict.components);
+        let count = counted(verdict.components.len(), "component");
+        scene.title = format!("{}, {count}", scene.title);
+        scene
+    }
+
+    /// A graph of which nothing is decided.
+    pub fn plain(input: &NamedGraph) -> Self {
+        Self::with(input, &[])
+    }
+
+    fn with(input: &NamedGraph, components: &[Component]) -> Self {
         let nodes = input.cameras.unwrap_or(input.graph.nodes() as u32);
-        let components = &verdict.components;
         let counts = |component: &&Component| input.cameras.is_none() || component.edge_count() > 1;
         let members = components.iter().take_while(counts).map(Component::nodes);
         let members: Vec<(u32, u32)> = (0..)
@@ -106,9 +117,8 @@ impl Scene {
         });
         let (cameras, all) = (nodes as usize, input.graph.nodes());
         let size = size(cameras, all - cameras, input.graph.edges().len());
-        let count = counted(components.len(), "component");
         Self {
-            title: format!("{}: {size}, {count}", input.name),
+            title: format!("{}: {size}", input.name),
             names: names.collect(),
             groups: groups.collect(),
             larger: components.partition_point(|component| component.edge_count() > 1),

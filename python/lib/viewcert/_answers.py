@@ -1,0 +1,41 @@
+"""Answers as values: dataclasses of what the native part says, whose attributes are described where they stand."""
+
+from __future__ import annotations
+
+import ast
+import inspect
+from dataclasses import fields
+from typing import Any, Dict, Literal, Mapping, Type, TypeVar, get_args, get_origin
+
+from . import _types
+
+_T = TypeVar("_T")
+
+
+def described(kind: Any) -> None:
+    """Lists in the documentation of a dataclass what ``Annotated`` says of its attributes."""
+    lines = []
+    for one in fields(kind):
+        annotation = ast.parse(str(one.type), mode="eval").body
+        if isinstance(annotation, ast.Subscript) and ast.unparse(annotation.value) == "Annotated":
+            of, text = annotation.slice.elts  # type: ignore[attr-defined]
+            named = ast.unparse(of)
+            words = getattr(_types, named, None)
+            if get_origin(words) is Literal:
+                named = f"{{{', '.join(map(repr, get_args(words)))}}}"
+            lines += [f"{one.name} : {named}", f"    {text.value}"]
+    if lines:
+        kind.__doc__ = "\n".join([inspect.cleandoc(kind.__doc__), "", "Attributes", "----------", *lines])
+
+
+def of_said(kind: Type[_T], said: Mapping[str, Any], **given: Any) -> _T:
+    """A dataclass of members that are called as its attributes, lists as tuples; `given` goes before."""
+    members: Dict[str, Any] = {one.name: said[one.name] for one in fields(kind) if one.name in said}  # type: ignore[arg-type]
+    tuples = {name: tuple(value) if isinstance(value, list) else value for name, value in members.items()}
+    return kind(**{**tuples, **given})
+
+
+def of_native(kind: Type[_T], found: Any, **given: Any) -> _T:
+    """A dataclass of what a native class has, or what is given instead."""
+    names = (one.name for one in fields(kind) if one.name not in given)  # type: ignore[arg-type]
+    return kind(**{name: getattr(found, name) for name in names}, **given)

@@ -1,0 +1,52 @@
+"""What `viewcert` exports."""
+
+import logging as _logging
+from dataclasses import is_dataclass as _is_dataclass
+
+from . import examples
+from ._act import (
+    Break, Explanation, Export, Implied, Outside, Suggestion, Unused, Weak, explain, export, implied, redundant, suggest,
+    surplus, weak,
+)
+from ._all import verify_all
+from ._answers import described as _described
+from ._cameras import (
+    AtCameras, FloatRuling, SingularValue, Special, VerifiedAtCameras, at_cameras, check_at_cameras,
+)
+from ._catalog import Entry, catalog, from_label, label
+from ._check import Verified, check
+from ._errors import Error, InputError, NoteWarning, Rejected, TooLarge, Undecided
+from ._errors import answering as _answering
+from ._files import Archive, ListedImages, Lists, Merge, NotVerified, Overview, check_all, lists, merge, overview
+from ._graph import Graph, from_database, read, tracks_from_database, tracks_from_reconstruction
+from ._intrinsics import Intrinsics, Prior, Priors, VerifiedIntrinsics, check_intrinsics, intrinsics
+from ._limits import limits
+from ._matrices import ExactMatrix, rigidity_matrix
+from ._mend import Mended, mend
+from ._native import __version__
+from ._studies import Audit, Change, Models, Ruling, audit, audit_claims, models
+from ._verdict import BaseLines, Joint, Planar, Solutions, Verdict, verify
+from ._witness import Witness, fundamental_matrix, witness
+
+__all__ = [
+    "Archive", "AtCameras", "Audit", "BaseLines", "Break", "Change", "Entry", "Error", "ExactMatrix", "Explanation",
+    "Export", "FloatRuling", "Graph", "Implied", "InputError", "Intrinsics", "Joint", "ListedImages", "Lists",
+    "Mended", "Models", "NotVerified", "NoteWarning", "Outside", "Overview", "Planar", "Prior", "Priors",
+    "Rejected", "Ruling", "SingularValue", "Solutions", "Special", "Suggestion", "TooLarge", "Undecided", "Unused",
+    "Verdict", "Verified", "VerifiedAtCameras", "VerifiedIntrinsics", "Weak", "Witness", "__version__",
+    "at_cameras", "audit", "audit_claims", "catalog", "check", "check_all", "check_at_cameras", "check_intrinsics",
+    "examples", "explain", "export", "from_database", "from_label", "fundamental_matrix", "implied", "intrinsics",
+    "label", "limits", "lists", "mend", "merge", "models", "overview", "read", "redundant", "rigidity_matrix",
+    "suggest", "surplus", "tracks_from_database", "tracks_from_reconstruction", "verify", "verify_all", "weak",
+    "witness",
+]
+
+for _name in __all__:
+    _thing = globals()[_name]
+    if _is_dataclass(_thing):
+        _described(_thing)
+    if callable(_thing):
+        globals()[_name] = _answering(_thing)
+
+# Messages are for who asks for them.
+_logging.getLogger("viewcert").addHandler(_logging.NullHandler())
