@@ -12,6 +12,7 @@ the cameras, and which maximal parts of it do?
 >>> viewcert.check(verdict.certificate()).value
 'not-finite-solvable'
 
+What cannot be used is an :class:`viewcert.InputError`, which says what was seen and what to do.
 What was merged, ignored or guessed is a warning, of :class:`viewcert.NoteWarning`, and stands in
 ``Verdict.notes``. ``logging.getLogger("viewcert")`` has a line for each verdict, at level DEBUG.
 """

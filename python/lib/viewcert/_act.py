@@ -321,11 +321,6 @@ def suggest(verdict: Any, most: int = 10) -> List[Suggestion[Any]]:
     most : int
         How many suggestions, at least 1.
 
-    Raises
-    ------
-    InputError
-        Of a camera-point graph, which has no pairs of images.
-
     Examples
     --------
     >>> import viewcert
@@ -352,11 +347,6 @@ def explain(verdict: Any, node: Any) -> Explanation[Any]:
         Or a graph, which is decided first.
     node
         A node of the graph, as it was given; a camera of a camera-point graph.
-
-    Raises
-    ------
-    InputError
-        If there is no such node.
 
     Examples
     --------
@@ -406,11 +396,6 @@ def export(verdict: Any, folder: Path) -> Export[Any]:
         mappers do.
     folder : str or path
         A new folder, an empty one, or that of an earlier export, which is replaced.
-
-    Raises
-    ------
-    InputError
-        If something else is in the folder, or COLMAP's lists cannot hold a name.
 
     Examples
     --------

@@ -31,13 +31,7 @@ def taking(words: Any, source: Callable[..., Any]) -> Callable[[_T], _T]:
 
 
 def whole(what: str, value: Any, least: int, most: int) -> int:
-    """An integer within bounds.
-
-    Raises
-    ------
-    InputError
-        If it is none, or lies outside.
-    """
+    """An integer within bounds."""
     try:
         number = operator.index(value)
     except TypeError:
@@ -55,26 +49,14 @@ def whole_if(what: str, value: Any, least: int, most: int) -> Optional[int]:
 
 
 def flag(what: str, value: Any) -> bool:
-    """A yes or no, which no word is: `bool("no")` is true.
-
-    Raises
-    ------
-    InputError
-        If it is neither.
-    """
+    """A yes or no, which no word is: `bool("no")` is true."""
     if type(value).__name__ not in ("bool", "bool_"):
         raise InputError(f"{what}={value!r}: give True or False")
     return bool(value)
 
 
 def listed(what: str, values: Any) -> List[Any]:
-    """All of several values.
-
-    Raises
-    ------
-    InputError
-        If it is one value.
-    """
+    """All of several values."""
     try:
         return list(values)
     except TypeError:
@@ -82,13 +64,7 @@ def listed(what: str, values: Any) -> List[Any]:
 
 
 def path_of(what: str, value: Any) -> str:
-    """The path of a file or folder.
-
-    Raises
-    ------
-    InputError
-        If it is none.
-    """
+    """The path of a file or folder."""
     try:
         return os.fsdecode(value)
     except TypeError:
@@ -96,13 +72,7 @@ def path_of(what: str, value: Any) -> str:
 
 
 def one_of(what: str, value: Any, words: Iterable[str]) -> None:
-    """Refuses a word that is none of those.
-
-    Raises
-    ------
-    InputError
-        With all words.
-    """
+    """Refuses a word that is none of those."""
     known = list(words)
     if value not in known:
         *others, last = map(repr, known)
@@ -110,13 +80,7 @@ def one_of(what: str, value: Any, words: Iterable[str]) -> None:
 
 
 def limits(time_limit: Any, memory_limit: Any) -> Tuple[Optional[float], Optional[int]]:
-    """Limits of time and memory, as seconds and bytes; texts as the program takes them.
-
-    Raises
-    ------
-    InputError
-        If they are negative, or no numbers.
-    """
+    """Limits of time and memory, as seconds and bytes; texts as the program takes them."""
     seconds, memory = time_limit, memory_limit
     if seconds is not None:
         try:

@@ -18,7 +18,7 @@ from . import _native
 from ._act import _decided
 from ._answers import of_native, of_said
 from ._arguments import flag, listed, whole_if
-from ._check import text_of
+from ._check import OfGraph, text_of
 from ._convert import Node
 from ._errors import InputError, Rejected
 from ._graph import Graph, Path, as_graph, on_disk
@@ -38,21 +38,16 @@ _Velocity = Tuple[Fraction, Fraction, Fraction]
 
 
 @dataclass(frozen=True)
-class VerifiedAtCameras:
+class VerifiedAtCameras(OfGraph):
     """What a certificate at given cameras proves. It can be pickled and compared."""
 
     determined: Annotated[bool, "Whether the cameras are determined."]
     strength: Annotated[Strength, "How strong that and the rank are; that they are determined is always proved."]
     error_log2: Annotated[Optional[int], "The chance of an error is at most two to this power."]
     rank: Annotated[int, "The rank at these cameras."]
-    required: Annotated[int, "The rank that determines."]
     components: Annotated[int, "How many components there are at these cameras."]
     model: Annotated[Decided, "The question: ``'projective'``, ``'calibrated'`` or ``'affine'``."]
     centres_sha256: Annotated[str, "The hash of the centres, as :attr:`AtCameras.centres_sha256`."]
-    nodes: Annotated[int, "How many nodes the graph has."]
-    edges: Annotated[int, "How many pairs."]
-    sha256: Annotated[str, "Its hash."]
-    text: Annotated[str, "All of it in words."] = field(repr=False)
 
     def __repr__(self) -> str:
         size = f"{self.nodes} nodes, {self.edges} pairs"
@@ -262,11 +257,6 @@ class AtCameras:
             A CSV file, or rows with the columns ``verdict`` (``'determined'`` or not), ``rank``, ``components``,
             ``sigma`` with ``sigma_error``, ``matrix`` and ``norm``, and ``name``; see docs/audit.md.
 
-        Raises
-        ------
-        InputError
-            A table that cannot be read, by line, or of another model.
-
         Examples
         --------
         >>> import viewcert
@@ -450,13 +440,7 @@ def _in_file(graph: Graph[Any], cameras: Cameras, model: str) -> Optional[_nativ
 
 
 def texts_of(graph: Graph[Any], cameras: Cameras, model: str) -> Tuple[List[str], int]:
-    """The numbers of cameras as exact texts, node by node, and how many a node has: 12 or 3.
-
-    Raises
-    ------
-    InputError
-        If nodes have no camera, or it has another shape.
-    """
+    """The numbers of cameras as exact texts, node by node, and how many a node has: 12 or 3."""
     read = _in_file(graph, cameras, model)
     if read is not None:
         return read.numbers()

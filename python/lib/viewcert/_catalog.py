@@ -61,11 +61,6 @@ def catalog(
     iterator of Entry
         In the order of ``verify catalog --list``.
 
-    Raises
-    ------
-    InputError
-        A size without candidates.
-
     Examples
     --------
     >>> import viewcert
@@ -133,11 +128,6 @@ def label(graph: Any) -> str:
 
 def from_label(label: str) -> str:
     """The graph of a label, as a line of graph6; the greatest one of its relabellings.
-
-    Raises
-    ------
-    InputError
-        No label of a graph.
 
     Examples
     --------

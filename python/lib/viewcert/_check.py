@@ -16,7 +16,18 @@ from ._types import BaseLinesValue, Decided, Strength, Value
 from ._verdict import Displacements, Verdict, coordinates
 
 @dataclass(frozen=True)
-class Verified:
+class OfGraph:
+    """What a certificate of any kind says of its graph."""
+
+    required: Annotated[int, "The rank at which all is determined."]
+    nodes: Annotated[int, "How many nodes the graph has."]
+    edges: Annotated[int, "How many pairs."]
+    sha256: Annotated[str, "Its hash."]
+    text: Annotated[str, "All of it in words."] = field(repr=False)
+
+
+@dataclass(frozen=True)
+class Verified(OfGraph):
     """What a certificate proves. It can be pickled and compared."""
 
     value: Annotated[Value, "``'solvable'``, ``'finite-solvable'`` or ``'not-finite-solvable'``."]
@@ -25,11 +36,7 @@ class Verified:
     ]
     error_log2: Annotated[Optional[int], "The exponent of the error bound."]
     rank: Annotated[int, "The generic rank."]
-    required: Annotated[int, "That of a finite solvable graph with as many nodes."]
     components: Annotated[int, "How many there are."]
-    nodes: Annotated[int, "How many nodes the graph has."]
-    edges: Annotated[int, "How many pairs."]
-    sha256: Annotated[str, "Its hash."]
     parts: Annotated[int, "How many known parts are taken for given."]
     displacements: Annotated[int, "Between how many sets of nodes displacements are taken for given."]
     base_lines: Annotated[Optional[BaseLinesValue], "What frames add where base lines are unknown."]
@@ -37,7 +44,6 @@ class Verified:
         "What is determined beside displacements in a frame of their own; all else is without them.",
     ]
     model: Annotated[Decided, "The question."]
-    text: Annotated[str, "All of it in words."] = field(repr=False)
 
     def __repr__(self) -> str:
         size = f"{self.nodes} nodes, {self.edges} pairs"
@@ -56,11 +62,6 @@ class _Certified(Protocol):
 
 def text_of(certificate: Union[bytes, bytearray, memoryview, Path, _Certified]) -> bytes:
     """The bytes of a certificate, of its file, or of that of an answer.
-
-    Raises
-    ------
-    InputError
-        If it is the text of a certificate as `str`, or no certificate at all.
     """
     if isinstance(certificate, (bytes, bytearray, memoryview)):
         return bytes(certificate)

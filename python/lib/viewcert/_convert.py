@@ -132,13 +132,7 @@ def _values(column: NDArray[Any]) -> Sequence[Any]:
 
 
 def rows_of(pairs: Any) -> NDArray[Any]:
-    """An array, also of another library, as rows of two nodes: of shape (m, 2), or (2, m) as an ``edge_index``.
-
-    Raises
-    ------
-    InputError
-        Another shape, or entries that are neither integers nor texts.
-    """
+    """An array, also of another library, as rows of two nodes: of shape (m, 2), or (2, m) as an ``edge_index``."""
     try:
         found = np.asarray(pairs)
     except Exception as error:

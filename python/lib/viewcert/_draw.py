@@ -33,13 +33,7 @@ class Drawn(NamedTuple):
 
 
 def positions(drawn: Drawn) -> Tuple[NDArray[np.float64], List[str]]:
-    """Where each node is drawn, x to the right and y up; and the colour of each component.
-
-    Raises
-    ------
-    TooLarge
-        If the graph is not drawn node by node.
-    """
+    """Where each node is drawn, x to the right and y up; and the colour of each component."""
     found = _native.drawing(drawn.native)
     if found is None:
         raise TooLarge(

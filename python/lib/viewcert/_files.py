@@ -14,10 +14,9 @@ from ._answers import of_native
 from ._arguments import listed, one_of, path_of, taking
 from ._errors import InputError, Rejected, TooLarge
 from ._graph import Path, on_disk
-from ._progress import Progress
 from ._limits import limits
 from ._reading import reading
-from ._types import Errors, Filters, Format, Reading
+from ._types import Errors, Filters, Format, Progress, Reading
 from ._words import in_python
 
 if TYPE_CHECKING:
@@ -89,11 +88,6 @@ def overview(
     format, **options
         As of :func:`read`, without `tracks`.
 
-    Raises
-    ------
-    InputError
-        A file that cannot be read.
-
     Examples
     --------
     >>> import pathlib, tempfile, viewcert
@@ -150,11 +144,6 @@ def lists(
         The lists, a name on each line.
     **filters
         `pipeline`, `min_inliers`, `min_views`, `max_spread` and `rigs`, as of :func:`read`.
-
-    Raises
-    ------
-    InputError
-        A file that cannot be read, or names an image that the graph does not have.
     """
     asked = reading(**filters)
     if isinstance(files, (str, bytes, os.PathLike)):
@@ -201,11 +190,6 @@ def merge(
         The database of both: its tracks may fix what the models alone leave free.
     **filters
         `pipeline`, `min_inliers`, `min_views`, `max_spread` and `rigs`, as of :func:`read`.
-
-    Raises
-    ------
-    InputError
-        A file that cannot be read, or a pose that is none.
     """
     asked = reading(**filters)
     with ExitStack() as opened:

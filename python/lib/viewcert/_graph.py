@@ -7,19 +7,7 @@ import sys
 import tempfile
 from contextlib import contextmanager
 from typing import (
-    TYPE_CHECKING,
-    Any,
-    Dict,
-    Generic,
-    Iterable,
-    Iterator,
-    List,
-    Literal,
-    Optional,
-    Sequence,
-    Tuple,
-    Union,
-    cast,
+    TYPE_CHECKING, Any, Dict, Generic, Iterable, Iterator, List, Literal, Optional, Sequence, Tuple, Union, cast,
     overload,
 )
 
@@ -344,13 +332,7 @@ def _restored(
 def numbered(
     graph: Graph[Any], parts: Iterable[Iterable[Node]], what: str = "parts"
 ) -> List[List[int]]:
-    """Sets of nodes, by the numbers of the nodes; `what` is the argument that they came as.
-
-    Raises
-    ------
-    InputError
-        If one of them is no node of the graph, or they are no sets of nodes.
-    """
+    """Sets of nodes, by the numbers of the nodes; `what` is the argument that they came as."""
     numbers = graph._number_of()
     found = []
     for part in parts:
@@ -367,13 +349,7 @@ def numbered(
 
 @contextmanager
 def on_disk(given: Any, what: str = "path") -> Iterator[Tuple[str, Optional[str]]]:
-    """The path of a file or folder; of what is open in pycolmap that of a copy, for as long, and what to call that.
-
-    Raises
-    ------
-    InputError
-        If it is neither, or cannot be copied.
-    """
+    """The path of a file or folder; of what is open in pycolmap that of a copy, for as long, and what to call that."""
     pycolmap = sys.modules.get("pycolmap")
     if pycolmap is None or not isinstance(given, (pycolmap.Database, pycolmap.Reconstruction)):
         yield path_of(what, given), None
@@ -536,11 +512,6 @@ def from_database(
     Graph
         Nodes are the names of the images.
 
-    Raises
-    ------
-    InputError
-        No such file, no database of COLMAP, or a locked one.
-
     Examples
     --------
     >>> import pycolmap, tempfile, viewcert
@@ -587,11 +558,6 @@ def tracks_from_database(
     Graph
         Nodes are the names of the cameras and behind them the points.
 
-    Raises
-    ------
-    InputError
-        As of :func:`from_database`, and a database without lists of matches.
-
     Examples
     --------
     >>> import pycolmap, tempfile, viewcert
@@ -623,11 +589,6 @@ def tracks_from_reconstruction(
     -------
     Graph
         Nodes are the names of the registered images and behind them the points.
-
-    Raises
-    ------
-    InputError
-        A reconstruction without points.
 
     Examples
     --------

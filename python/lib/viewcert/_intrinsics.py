@@ -10,7 +10,7 @@ from ._act import _asked, _decided
 from ._answers import of_native, of_said
 from ._arguments import flag, whole, whole_if
 from ._errors import InputError, Rejected
-from ._check import text_of
+from ._check import OfGraph, text_of
 from ._convert import Node
 from ._graph import Path, as_graph
 from ._types import Class, IntrinsicsValue
@@ -18,13 +18,12 @@ from ._verdict import Verdict
 
 
 @dataclass(frozen=True)
-class VerifiedIntrinsics:
+class VerifiedIntrinsics(OfGraph):
     """What a certificate of intrinsics proves. It can be pickled and compared."""
 
     value: Annotated[IntrinsicsValue, "``'metric'``, ``'not-metric'`` or ``'open'``."]
     rank: Annotated[int, "What the generic rank is not below."]
     rank_at_most: Annotated[int, "What it is not above."]
-    required: Annotated[int, "The rank of a metric graph."]
     components: Annotated[Optional[List[List[int]]],
         "Metric components, as positions in the `graph.nodes` of a verdict; None if bounds do not meet.",
     ]
@@ -33,10 +32,6 @@ class VerifiedIntrinsics:
     ]
     classes: Annotated[List[Tuple[int, Class]], "How many cameras are of which class."]
     classes_sha256: Annotated[str, "The hash of the classes."]
-    nodes: Annotated[int, "How many nodes the graph has."]
-    edges: Annotated[int, "How many pairs."]
-    sha256: Annotated[str, "Its hash."]
-    text: Annotated[str, "All of it in words."] = field(repr=False)
 
     def __hash__(self) -> int:
         return hash((self.sha256, self.classes_sha256, self.value, self.rank))
@@ -115,11 +110,6 @@ class Intrinsics:
         ----------
         embed_graph : bool
             Whether a graph of more than 100 nodes is part of it; smaller ones always are.
-
-        Raises
-        ------
-        InputError
-            If the graph has no pairs.
         """
         return self._verdict._native.certificate_of_intrinsics(
             list(self._classes), list(self._sensors), embed_graph=flag("embed_graph", embed_graph)

@@ -7,8 +7,8 @@ from contextvars import ContextVar
 from typing import Iterator, NamedTuple, Optional
 
 from ._arguments import limits as bounds
-from ._progress import Callback, Progress, shown
-from ._types import MemoryLimit, TimeLimit
+from ._progress import shown
+from ._types import Callback, MemoryLimit, Progress, TimeLimit
 
 
 class _Around(NamedTuple):

@@ -93,11 +93,6 @@ def rigidity_matrix(
         Whether entries are integers or fractions, as an :class:`ExactMatrix`, instead of floats. Floats are these,
         each rounded once.
 
-    Raises
-    ------
-    InputError
-        If nodes have no camera, or a pair's cameras are at one place, or the matrix takes other cameras.
-
     Examples
     --------
     >>> import numpy, viewcert

@@ -69,11 +69,6 @@ def mend(
         How many pairs are matched, at least 1; :func:`limits` shows a bar.
     match : callable, optional
         ``match(path, pairs)`` matches and verifies the pairs of a list; without it `pycolmap.match_image_pairs` does.
-
-    Raises
-    ------
-    InputError
-        Without pycolmap 4, or of a file that cannot be read or written.
     """
     try:
         from pycolmap import Database, ImportedPairingOptions, extract_features, match_image_pairs

@@ -3,17 +3,10 @@
 from __future__ import annotations
 
 from contextlib import contextmanager
-from typing import Any, Callable, Iterator, Optional, Union
+from typing import Any, Callable, Iterator, Optional
 
 from ._errors import InputError
-
-#: Called with what is being done, how many units of it are done, and of how many (0 if that is not
-#: known). What it raises stops the work.
-Callback = Callable[[str, int, int], object]
-
-#: A callback; True for a bar (needs tqdm); None or False for nothing.
-Progress = Union[Callback, bool, None]
-
+from ._types import Callback, Progress
 
 class _Bar:
     """The callback that moves a bar of tqdm."""

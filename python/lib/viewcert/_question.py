@@ -9,8 +9,7 @@ from ._arguments import limits as bounds_of
 from ._errors import InputError
 from ._graph import Graph
 from ._limits import limits
-from ._progress import Progress
-from ._types import Counting, MemoryLimit, Model, TimeLimit
+from ._types import Counting, MemoryLimit, Model, Progress, TimeLimit
 
 
 def asked(
@@ -29,13 +28,7 @@ def asked(
     memory_limit: MemoryLimit = None,
     progress: Progress = None,
 ) -> Tuple[Dict[str, Any], ContextManager[None]]:
-    """A question as the native part takes it, and what it is asked within.
-
-    Raises
-    ------
-    InputError
-        What cannot be asked, or does not go together.
-    """
+    """A question as the native part takes it, and what it is asked within."""
     if model is not None:
         one_of("model", model, get_args(Model))
     if solutions is not None and solutions not in get_args(Counting):
@@ -67,13 +60,7 @@ def of_pairs(wanted: Dict[str, Any]) -> Dict[str, Any]:
 
 
 def chosen_model(graph: Graph[Any], model: Optional[str]) -> str:
-    """The model that is decided, if none is named: calibrated of camera-point graphs.
-
-    Raises
-    ------
-    InputError
-        If it cannot be asked of the graph.
-    """
+    """The model that is decided, if none is named: calibrated of camera-point graphs."""
     points = graph.cameras is not None
     if points and model not in (None, "calibrated"):
         raise InputError(

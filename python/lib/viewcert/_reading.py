@@ -23,13 +23,7 @@ def reading(
     min_weight: Union[str, int, Decimal, None] = None,
     skip_loops: bool = False,
 ) -> Dict[str, Any]:
-    """How pairs and tracks of a file are read, as the native part takes it.
-
-    Raises
-    ------
-    InputError
-        What cannot be asked.
-    """
+    """How pairs and tracks of a file are read, as the native part takes it."""
     if isinstance(min_weight, float):
         raise InputError(f"min_weight={min_weight!r}: give an integer, a Decimal or a string")
     if pipeline is not None:

@@ -236,11 +236,6 @@ def audit_claims(
     -------
     list of Ruling
 
-    Raises
-    ------
-    InputError
-        A table that cannot be read, or a row without a claim or a graph.
-
     Examples
     --------
     >>> import networkx, viewcert

@@ -23,13 +23,7 @@ def html_of(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 
 
 def rows_of(table: Any) -> List[Dict[str, Any]]:
-    """The rows of a data frame, of one mapping, or of several.
-
-    Raises
-    ------
-    InputError
-        If these are none.
-    """
+    """The rows of a data frame, of one mapping, or of several."""
     frame = frame_of(table)
     if frame is not None:
         if hasattr(frame, "to_dicts"):

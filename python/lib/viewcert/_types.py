@@ -3,9 +3,17 @@
 from __future__ import annotations
 
 from decimal import Decimal
-from typing import AbstractSet, Any, Hashable, Iterator, Literal, Optional, Protocol, Sequence, TypedDict, TypeVar, Union
+from typing import (
+    AbstractSet, Any, Callable, Hashable, Iterator, Literal, Optional, Protocol, Sequence, TypedDict, TypeVar,
+    Union,
+)
 
-from ._progress import Progress
+#: Called with what is being done, how many units of it are done, and of how many (0 if that is not
+#: known). What it raises stops the work.
+Callback = Callable[[str, int, int], object]
+
+#: A callback; True for a bar (needs tqdm); None or False for nothing.
+Progress = Union[Callback, bool, None]
 
 #: What a user calls his images.
 N = TypeVar("N", bound=Hashable)

@@ -9,24 +9,8 @@ from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 from typing import (
-    TYPE_CHECKING,
-    Annotated,
-    Any,
-    Dict,
-    FrozenSet,
-    Generic,
-    Iterable,
-    Iterator,
-    List,
-    Literal,
-    Mapping,
-    NoReturn,
-    Optional,
-    Sequence,
-    Tuple,
-    Union,
-    cast,
-    overload,
+    TYPE_CHECKING, Annotated, Any, Dict, FrozenSet, Generic, Iterable, Iterator, List, Literal, Mapping, NoReturn,
+    Optional, Sequence, Tuple, Union, cast, overload,
 )
 
 import numpy as np
@@ -393,11 +377,6 @@ class Verdict(Generic[N]):
         ----------
         component : int
             Its place in `components`.
-
-        Raises
-        ------
-        InputError
-            If there is no such component.
         """
         return self._graph._named(self.pair_indices_of(component))
 
@@ -418,11 +397,6 @@ class Verdict(Generic[N]):
         pairs : optional
             Pairs of nodes, in any order and orientation: what :func:`verify` takes as pairs, arrays too. The answer
             has the same order. Without it: `Graph.pairs`.
-
-        Raises
-        ------
-        InputError
-            If one is no pair of the graph; with its row.
 
         Examples
         --------
@@ -472,11 +446,6 @@ class Verdict(Generic[N]):
         -------
         networkx.Graph
             The same graph.
-
-        Raises
-        ------
-        InputError
-            If it has nodes or pairs that were not decided; it is as it was then.
 
         Examples
         --------
@@ -545,11 +514,6 @@ class Verdict(Generic[N]):
 
     def save(self, path: Path, *, embed_graph: bool = False) -> None:
         """Writes the certificate to a file, whole or not at all.
-
-        Raises
-        ------
-        InputError
-            If it cannot be written; the file is then as it was before.
         """
         Decided.write(path_of("path", path), self.certificate(embed_graph=embed_graph))
 

@@ -84,11 +84,6 @@ class Witness(Generic[N]):
     def fundamental(self, a: N, b: N) -> Tuple[Exact, Exact]:
         """The fundamental matrices of two nodes in both families, as least residues, the first entry that is not
         zero made 1: equal if (and only if) the matrices are the same up to a factor.
-
-        Raises
-        ------
-        InputError
-            If one is no node.
         """
         found = []
         i, j = (_place(self.nodes, node) for node in (a, b))

@@ -9,7 +9,9 @@ from __future__ import annotations
 import re
 import sys
 import warnings
-from typing import Callable, Iterable, List, Match, Tuple, Union
+from typing import Iterable, List, Match, get_args
+
+from ._types import Counting, Format, Lines, Model, Pipeline
 
 
 class NoteWarning(UserWarning):
@@ -19,38 +21,60 @@ class NoteWarning(UserWarning):
 NoteWarning.__module__ = "viewcert"
 
 
-def _columns(found: Match[str]) -> str:
-    names = found[1].split(",")
-    return f"columns={[int(name) if name.isdecimal() else name for name in names]}"
+#: How commands of programs begin, and what does the same here.
+_COMMANDS = {
+    "verify GRAPH --certificate": "`viewcert.verify(graph).save(path)`",
+    "verify database.db": "`viewcert.from_database('database.db')`",
+    "verify convert": "`networkx.write_graph6`",
+    "colmap feature_extractor": "`pycolmap.extract_features(FILE, 'images')`",
+    "colmap exhaustive_matcher": "`pycolmap.match_exhaustive(FILE)`",
+    "colmap geometric_verifier": "`pycolmap.geometric_verification(FILE)`",
+    "cargo install": "`pip install ./python`",
+}
 
+#: Options that are no arguments of the same name.
+_ARGUMENTS = {
+    "given": "`parts` and `displacements`",
+    "intrinsics": "`viewcert.intrinsics`",
+    "no-rigs": "rigs=False",
+    "planar": "planar=True",
+    "rational": "rational=True",
+    "skip-loops": "skip_loops=True",
+    "tracks": "tracks=True",
+}
 
-#: Whole phrases first, then options with a value, then all others.
-_PHRASES: Tuple[Tuple[str, Union[str, Callable[[Match[str]], str]]], ...] = (
-    (r"`verify GRAPH --certificate FILE`", "`viewcert.verify(graph).save(path)`"),
-    (r"`verify database\.db`", "`viewcert.from_database('database.db')`"),
-    (r"`verify convert GRAPH --to graph6`", "`networkx.write_graph6`"),
-    (r"verify GRAPH --given FILE", "`parts` and `displacements` of `viewcert.verify`"),
-    (r"`colmap feature_extractor [^`]*`", "`pycolmap.extract_features(FILE, 'images')`"),
-    (r"`colmap exhaustive_matcher [^`]*`", "`pycolmap.match_exhaustive(FILE)`"),
-    (r"`colmap geometric_verifier [^`]*`, or in Python ", ""),
-    (r"`cargo install[^`]*`", "`pip install ./python`"),
-    (r"with --given (\S+), which takes", r"in the program `verify` (given \1), which takes"),
-    (r"--intrinsics FILE|--intrinsics", "`viewcert.intrinsics`"),
-    (r"`?--(format|model|solutions|pipeline)[ =]([a-z0-9]+(?:-[a-z0-9]+)*)`?", r"\1='\2'"),
-    (r"`?--columns[ =]([\w]+(?:,[\w]+)+)`?", _columns),
-    (r"--given\b", "`parts` and `displacements`"),
-    (r"--no-rigs", "rigs=False"),
-    (r"--(tracks|skip-loops|planar|rational)\b", lambda found: f"{_name(found[1])}=True"),
-    (r"--(weak|suggest|explain|surplus|redundant|implied)=images", r"\1(of='images')"),
-    (r"(?<![\w-])--([a-z][a-z0-9-]*)", lambda found: _name(found[1])),
-)
+#: The words that follow an option.
+_VALUES = {
+    "format": (*get_args(Format), *get_args(Lines)),
+    "model": get_args(Model),
+    "pipeline": get_args(Pipeline),
+    "solutions": get_args(Counting),
+}
 
+_COMMAND = re.compile(r"`([^`]*)`(, or in Python `[^`]*`)?|\bverify GRAPH --given FILE")
+_OPTION = re.compile(r"(`?)(?<![\w-])--([a-z][a-z0-9-]*)(?:([= ])([\w,-]*\w))?(`?)")
+_GIVEN = re.compile(r"with --given (\S+), which takes")
 _NUMBER = re.compile(r" \(os error \d+\)")
-_COMPILED = [(re.compile(pattern), words) for pattern, words in _PHRASES]
 
 
-def _name(option: str) -> str:
-    return option.replace("-", "_")
+def _command(found: Match[str]) -> str:
+    if found[1] is None:
+        return "`parts` and `displacements` of `viewcert.verify`"
+    return next((words for start, words in _COMMANDS.items() if found[1].startswith(start)), found[0])
+
+
+def _argument(found: Match[str]) -> str:
+    before, option, between, value, after = found.groups()
+    name = option.replace("-", "_")
+    if value in _VALUES.get(option, ()):
+        return f"{name}={value!r}"
+    if option == "columns" and value and "," in value:
+        return f"columns={[int(column) if column.isdecimal() else column for column in value.split(',')]}"
+    if (between, value) == ("=", "images"):
+        return f"{name}(of='images')"
+    if option == "intrinsics" and value == "FILE":
+        between = value = ""
+    return f"{before}{_ARGUMENTS.get(option, name)}{between or ''}{value or ''}{after}"
 
 
 def in_python(message: str) -> str:
@@ -58,8 +82,8 @@ def in_python(message: str) -> str:
     numbers of the system's errors, which their words say."""
     message = _NUMBER.sub("", message)
     if "verify" in message or "--" in message or "`" in message:
-        for pattern, words in _COMPILED:
-            message = pattern.sub(words, message)
+        message = _GIVEN.sub(r"in the program `verify` (given \1), which takes", _COMMAND.sub(_command, message))
+        message = _OPTION.sub(_argument, message)
     return message
 
 

@@ -16,16 +16,7 @@ from ._graph import Graph
 from ._types import Decided
 
 __all__ = [
-    "courtyard",
-    "courtyard_gaps",
-    "degenerate",
-    "degenerate_names",
-    "facade",
-    "graph",
-    "house",
-    "names",
-    "prism",
-    "psi",
+    "courtyard", "courtyard_gaps", "degenerate", "degenerate_names", "facade", "graph", "house", "names", "prism", "psi",
     "two_solutions",
 ]
 
@@ -78,15 +69,8 @@ def two_solutions() -> Graph[int]:
     return Graph([(int(a), int(b)) for a, b in _pairs(_TWO_SOLUTIONS)], name="two_solutions")
 
 
-_NAMED: Dict[str, Callable[[], Graph[Any]]] = {
-    "courtyard": courtyard,
-    "courtyard_gaps": courtyard_gaps,
-    "facade": facade,
-    "house": house,
-    "prism": prism,
-    "psi": psi,
-    "two_solutions": two_solutions,
-}
+_ALL: Tuple[Callable[[], Graph[Any]], ...] = (courtyard, courtyard_gaps, facade, house, prism, psi, two_solutions)
+_NAMED = {function.__name__: function for function in _ALL}
 
 
 def names() -> List[str]:
@@ -96,11 +80,6 @@ def names() -> List[str]:
 
 def graph(name: str) -> Graph[Any]:
     """The graph of a name.
-
-    Raises
-    ------
-    InputError
-        If there is none of that name.
     """
     if name not in _NAMED:
         raise InputError(f"there is no example {name!r}: give one of {names()}")
@@ -123,11 +102,6 @@ def degenerate(name: str) -> Tuple[Graph[str], Decided, Dict[str, _Place]]:
         The model in which that is so.
     places : dict
         For each node its centre (affine: its viewing direction), as decimals.
-
-    Raises
-    ------
-    InputError
-        If there is none of that name.
 
     Examples
     --------
