@@ -5,11 +5,33 @@ from __future__ import annotations
 import ast
 import inspect
 from dataclasses import fields
-from typing import Any, Dict, Literal, Mapping, Type, TypeVar, get_args, get_origin
+from typing import Any, Dict, Literal, Mapping, NoReturn, Type, TypeVar, get_args, get_origin
 
 from . import _types
 
 _T = TypeVar("_T")
+
+
+class Frozen:
+    """What cannot be changed, and so need not be copied."""
+
+    __slots__ = ()
+
+    def _keep(self, name: str, value: object) -> None:
+        """Remembers what follows from the rest and was asked for."""
+        object.__setattr__(self, name, value)
+
+    def __setattr__(self, name: str, value: object) -> NoReturn:
+        raise AttributeError(f"a {type(self).__name__} cannot be changed: {name}")
+
+    def __delattr__(self, name: str) -> NoReturn:
+        raise AttributeError(f"a {type(self).__name__} cannot be changed: {name}")
+
+    def __copy__(self: _T) -> _T:
+        return self
+
+    def __deepcopy__(self: _T, memo: Dict[int, Any]) -> _T:
+        return self
 
 
 def described(kind: Any) -> None:

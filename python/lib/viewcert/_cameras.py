@@ -270,12 +270,12 @@ class AtCameras:
 
     def to_dict(self, *, list_components: bool = False) -> Dict[str, Any]:
         """What ``verify --given FILE --json`` prints (with `list_components`: and ``--components``)."""
-        found: Dict[str, Any] = json.loads(self._at().report("json", list_components=list_components))
+        found: Dict[str, Any] = json.loads(self._at().report("json", list_components=flag("list_components", list_components)))
         return found
 
     def report(self, *, list_components: bool = False) -> str:
         """What ``verify --given FILE`` prints for people."""
-        return self._at().report("text", list_components=list_components).decode()
+        return self._at().report("text", list_components=flag("list_components", list_components)).decode()
 
     def page(self) -> str:
         """The web page of ``verify draw --given FILE``, on which what is left to move does."""
@@ -355,29 +355,16 @@ def check_at_cameras(
 
     Parameters
     ----------
-    certificate : bytes, path or AtCameras
-        The certificate: its bytes, its file, or an answer whose certificate is made first.
-    graph : optional
-        The graph it is about; not needed if the certificate holds it.
+    certificate, graph, max_operations
+        As of :func:`check`; an answer for the certificate is one of this question.
     cameras : optional
         The cameras it has to be about, as for :func:`at_cameras`, if a verdict is given for the graph.
         With a graph they have to be named; without one compare `centres_sha256`.
-    max_operations : int, optional
-        What checking may cost, in elementary operations; by default 2 * 10^12.
-
-    Returns
-    -------
-    VerifiedAtCameras
-        What the certificate proves.
 
     Raises
     ------
     Rejected
         If anything in it does not hold, or it is about other cameras.
-    TooLarge
-        If checking would cost more than the limits allow.
-    InputError
-        If `graph` is no graph, or `cameras` do not go with it.
 
     Examples
     --------

@@ -112,11 +112,6 @@ def check(
     max_operations : int, optional
         What checking may cost, in elementary operations; by default 2 * 10^12.
 
-    Returns
-    -------
-    Verified
-        What the certificate proves.
-
     Raises
     ------
     Rejected

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
+from ._answers import Frozen
 from ._arguments import flag, listed, path_of, taking, whole
 from ._convert import Node, Wish, converted, rows_of
 from ._errors import Error, InputError, answering
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
 Path = Union[str, "os.PathLike[str]"]
 
 
-class Graph(Generic[N]):
+class Graph(Frozen, Generic[N]):
     """A viewing graph, or a graph of cameras and points, that `verify` takes as it is.
 
     What :func:`read`, :func:`from_database` and the functions for tracks return; other graphs are
@@ -119,13 +120,7 @@ class Graph(Generic[N]):
         texts: Optional[Sequence[str]],
     ) -> None:
         for slot, value in zip(self.__slots__, (native, nodes, texts, None)):
-            object.__setattr__(self, slot, value)
-
-    def __setattr__(self, name: str, value: object) -> None:
-        raise AttributeError(f"a graph cannot be changed: {name}")
-
-    def __delattr__(self, name: str) -> None:
-        raise AttributeError(f"a graph cannot be changed: {name}")
+            self._keep(slot, value)
 
     @classmethod
     def _of(
@@ -143,12 +138,6 @@ class Graph(Generic[N]):
         labels, about = _native.about_graph(native)
         kept = (native.name, native.nodes, native.pairs(), labels, about)
         return _restored, (kept, self._nodes, self._texts)
-
-    def __copy__(self) -> Graph[N]:
-        return self
-
-    def __deepcopy__(self, memo: Dict[int, Any]) -> Graph[N]:
-        return self
 
     def __len__(self) -> int:
         return self._native.nodes
@@ -188,7 +177,7 @@ class Graph(Generic[N]):
         Of a camera-point graph first the names of the cameras, then ``point 1`` and so on.
         """
         if self._nodes is None:
-            object.__setattr__(self, "_nodes", self._native.labels())
+            self._keep("_nodes", self._native.labels())
         return cast("List[N]", list(self._nodes or ()))
 
     @property
@@ -264,8 +253,7 @@ class Graph(Generic[N]):
     def _number_of(self) -> Dict[Node, int]:
         """The number of every node."""
         if self._numbers is None:
-            numbers = {node: number for number, node in enumerate(self.nodes)}
-            object.__setattr__(self, "_numbers", numbers)
+            self._keep("_numbers", {node: number for number, node in enumerate(self.nodes)})
         assert self._numbers is not None
         return self._numbers
 

@@ -251,31 +251,18 @@ def check_intrinsics(
 
     Parameters
     ----------
-    certificate : bytes, path or Intrinsics
-        The certificate: its bytes, its file, or an answer whose certificate is made first.
-    graph : optional
-        The graph it is about; not needed if the certificate holds it.
+    certificate, graph, max_operations
+        As of :func:`check`; an answer for the certificate is one of this question.
     classes : mapping, optional
         The classes that it has to suppose, with `default` for all other nodes, if a graph is given.
         With a graph they have to be named; without one compare `classes_sha256`.
     sensors : mapping, optional
         Which nodes it has to suppose to share intrinsics, as for :func:`intrinsics`, beside `classes`.
-    max_operations : int, optional
-        What checking may cost, in elementary operations; by default 2 * 10^12.
-
-    Returns
-    -------
-    VerifiedIntrinsics
-        What the certificate proves.
 
     Raises
     ------
     Rejected
         If anything in it does not hold, or it is about other classes or sensors.
-    TooLarge
-        If checking would cost more than the limits allow.
-    InputError
-        If `graph` is no graph, or `classes` or `sensors` do not go with it.
 
     Examples
     --------

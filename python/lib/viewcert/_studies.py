@@ -232,10 +232,6 @@ def audit_claims(
     errors : {'raise', 'return'}
         Whether a row that cannot be decided raises its error, or has it in its place.
 
-    Returns
-    -------
-    list of Ruling
-
     Examples
     --------
     >>> import networkx, viewcert

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
-from ._answers import of_said
+from ._answers import Frozen, of_said
 from ._arguments import flag, path_of, taking, whole
 from ._convert import Node
 from ._draw import Drawn, plot, positions, to_tikz
@@ -117,7 +117,7 @@ class BaseLines:
     ] = None
 
 
-class Verdict(Generic[N]):
+class Verdict(Frozen, Generic[N]):
     """What a graph determines. It cannot be changed, and has three values, so that it is neither
     true nor false.
 
@@ -163,12 +163,6 @@ class Verdict(Generic[N]):
     def __reduce__(self) -> Tuple[Any, ...]:
         return _restored, (self._graph, self._question, Pickled.said(self._native))
 
-    def __copy__(self) -> Verdict[N]:
-        return self
-
-    def __deepcopy__(self, memo: Dict[int, Any]) -> Verdict[N]:
-        return self
-
     def __len__(self) -> int:
         return len(self._parts_found())
 
@@ -193,16 +187,6 @@ class Verdict(Generic[N]):
         found["sets"] = members.tolist(), ends.tolist()
         found["known"] = native.parts(), native.displacements(), native.vectors()
         return found
-
-    def _keep(self, name: str, value: object) -> None:
-        """Remembers what follows from the rest and was asked for."""
-        object.__setattr__(self, name, value)
-
-    def __setattr__(self, name: str, value: object) -> NoReturn:
-        raise AttributeError(f"a verdict cannot be changed: {name}")
-
-    def __delattr__(self, name: str) -> NoReturn:
-        raise AttributeError(f"a verdict cannot be changed: {name}")
 
     def __bool__(self) -> NoReturn:
         raise TypeError(
@@ -440,12 +424,7 @@ class Verdict(Generic[N]):
         Parameters
         ----------
         graph : networkx.Graph
-            With the pairs that were decided, or some of them. It is changed.
-
-        Returns
-        -------
-        networkx.Graph
-            The same graph.
+            With the pairs that were decided, or some of them. It is changed, and returned.
 
         Examples
         --------
@@ -567,11 +546,6 @@ class Verdict(Generic[N]):
             Whether nodes have their names beside them; by default up to 40 have.
         node_size : float, optional
             In points squared.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            Where it is drawn.
 
         Raises
         ------
@@ -735,10 +709,6 @@ def verify(
         In bytes, or a text such as ``'2G'``, for the large matrices; by default three quarters of the machine's memory.
     progress : callable or bool, optional
         Called as ``progress(what, done, total)`` some twenty times a second; True shows a bar.
-
-    Returns
-    -------
-    Verdict
 
     Raises
     ------
