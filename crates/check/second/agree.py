@@ -224,10 +224,10 @@ class Truth:
                     bodies = {body for body in bodies if body not in some} | {frozenset().union(*some)}
                     break
             else:
-                six = Truth.around_a_biclique(bodies, n)
-                if six is None:
+                some = Truth.around_a_biclique(bodies, n) or Truth.around_a_path(bodies, n)
+                if some is None:
                     return bodies == {frozenset(range(n))}
-                bodies = {body for body in bodies if body not in six} | {frozenset().union(*six)}
+                bodies = {body for body in bodies if body not in some} | {frozenset().union(*some)}
 
     @staticmethod
     def around_a_biclique(bodies, n):
@@ -239,6 +239,28 @@ class Truth:
             # Within one body, or where two rules come to the same, nothing is left to merge.
             if len(three) == 3 and len(six) == 6:
                 return six
+        return None
+
+    @staticmethod
+    def around_a_path(bodies, n):
+        """The bodies of a tripod or a link; None if there are none."""
+        together = {pair: body for body in bodies for pair in itertools.permutations(body, 2)}
+        for body in bodies:
+            away = [v for v in range(n) if v not in body]
+            near = {v: [a for a in body if (a, v) in together] for v in away}
+            for d, e, f in itertools.permutations(away, 3):
+                if (d, e) in together and (d, f) in together:
+                    for a, b, c in itertools.product(near[d], near[e], near[f]):
+                        if len({a, b, c}) == 3:
+                            return {body, *(together[pair] for pair in ((a, d), (d, e), (e, b), (d, f), (f, c)))}
+            for other in bodies:
+                if body & other:
+                    continue
+                pairs = [(a, d) for d in other for a in near[d]]
+                paths = [(c, g, f) for g in away if g not in other for c in near[g] for f in other if (g, f) in together]
+                for (a, d), (b, e), (c, g, f) in itertools.product(pairs, pairs, paths):
+                    if a != b and d != e and (c, f) not in ((a, d), (b, e)):
+                        return {body, other, *(together[pair] for pair in ((a, d), (b, e), (c, g), (g, f)))}
         return None
 
     def contradicts(self, claim):

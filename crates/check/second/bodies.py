@@ -38,34 +38,32 @@ class Bodies(LowerBounds):
         others, at = members(step, "with at", f"{where}: merge")
         at = [an_int(node, f"{where}: at") for node in a_list(at, f"{where}: at")]
         size = len(a_list(others, f"{where}: with"))
-        need(size in (1, 2, 3, 5), f"{where}: with holds one, two, three or five")
+        larger = {(5, 5): check_biclique, (4, 6): check_tripod, (5, 6): check_tripod, (5, 7): check_link}.get((size, len(at)))
+        need(size <= 3 and size or larger, f"{where}: with holds one, two, three or five, or the length of at is wrong")
         need(size != 3 or self.model == "calibrated", f"{where}: a cycle of four is no body in the {self.model} model")
-        need(size != 5 or self.model == "projective", f"{where}: six bodies are merged in the projective model only")
+        need(not larger or self.model == "projective", f"{where}: so many bodies are merged in the projective model only")
         single = size == len(at) == 1
-        need(single or len(at) == (5 if size == 5 else size + 1), f"{where}: the length of at is wrong")
+        need(single or larger or len(at) == size + 1, f"{where}: the length of at is wrong")
         both = scaled and self.is_scaled(others)
         need(not single or both, f"{where}: only scaled bodies are merged at one node")
         scaled = scaled or self.is_scaled(others)
-        need(distinct(at), f"{where}: the nodes of at are not different")
+        need(larger == check_link or distinct(at), f"{where}: the nodes of at are not different")
         if len(at) in (3, 4):
             self.need_independent(at, f"{where}: merge")
         need(size != 2 or not same(others[0], others[1]), f"{where}: merged with the same twice")
         unique = unique and all(map(self.is_unique, others))
         others = [self.body_or_edge(other, where) for other in others]
-        if size == 1:
+        if larger:
+            shared = larger([set(body), *map(set, others)], at, where)
+        elif size == 1:
             shared = all(node in body and node in others[0] for node in at)
         elif size == 2:
             (x, y), (a, b, c) = others, at
             shared = a in body and a in x and b in body and b in y and c in x and c in y
-        elif size == 3:
+        else:
             (x, y, z), (a, b, c, d) = others, at
             shared = a in body and a in x and b in x and b in y
             shared = shared and c in y and c in z and d in z and d in body
-        else:
-            # Theorem 10.3: a is joined to u, v, w by the body, x and z, and these to b by t, y and s.
-            (t, x, y, z, s), (a, b, u, v, w) = others, at
-            shared = {a, u} <= set(body) and {u, b} <= set(t) and {a, v} <= set(x)
-            shared = shared and {v, b} <= set(y) and {a, w} <= set(z) and {w, b} <= set(s)
         need(shared, f"{where}: the nodes of at are not shared as a merge demands")
         body.update(*others)
         return scaled, unique
@@ -98,3 +96,31 @@ class Bodies(LowerBounds):
         pair = a_pair(value, f"{where}: a seed or partner")
         need(pair in self.graph.edge_set, f"{where}: {pair} is not an edge")
         return pair
+
+
+def check_biclique(bodies, at, where):
+    """Theorem 10.3: a is joined to u, v, w by the body, x and z, and these to b by t, y and s."""
+    body, t, x, y, z, s = bodies
+    a, b, u, v, w = at
+    pairs = [(body, a, u), (t, u, b), (x, a, v), (y, v, b), (z, a, w), (s, w, b)]
+    return all({i, j} <= nodes for nodes, i, j in pairs)
+
+
+def check_tripod(bodies, at, where):
+    """Theorem 18.7: d, e and f hang on the body at a, b and c, and d on e and f."""
+    body, t, w, x, y, z = bodies if len(bodies) == 6 else [*bodies, bodies[2]]
+    a, b, c, d, e, f = at
+    need(body.isdisjoint((d, e, f)), f"{where}: one of the last three nodes is in the body")
+    return {a, b, c} <= body and all({i, j} <= nodes for nodes, i, j in [(t, d, a), (w, d, e), (x, e, b), (y, f, c), (z, d, f)])
+
+
+def check_link(bodies, at, where):
+    """Theorem 18.8: the body and t hang together in ad, be, and by the path c, g, f."""
+    body, t, w, x, y, z = bodies
+    a, b, c, d, e, f, g = at
+    need(body.isdisjoint(t), f"{where}: a link between bodies with a common node")
+    need(g not in body and g not in t, f"{where}: the node {g} is in one of the two bodies of the link")
+    need(a != b and d != e, f"{where}: two pairs of the link have a common node")
+    need((c, f) not in ((a, d), (b, e)), f"{where}: the plane of {c}, {g} and {f} holds a pair of the link")
+    paths = [(w, a, d), (x, b, e), (y, c, g), (z, g, f)]
+    return {a, b, c} <= body and {d, e, f} <= t and all({i, j} <= nodes for nodes, i, j in paths)

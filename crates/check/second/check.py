@@ -34,9 +34,10 @@ class Check(OwnFrame):
         self.core_limit, self.work_limit = core_limit, work_limit
         bodies, rigid, pieces, solutions, base_lines, own_frame = self.read_document(data, graph_data, given_data, expects)
         self.check_bodies(bodies)
-        everything = self.cover()
-        found, rigid_count = self.check_pieces(rigid, pieces, everything, "section 6: ")
+        self.everything = self.cover()
+        found, rigid_count = self.check_pieces(rigid, pieces, self.everything, "section 6: ")
         numbers = [self.count_solutions(value, pieces, found) for value in solutions]
+        need(numbers or not any(piece.by_solutions for piece in found), "section 7: one-solution, and no solutions")
         self.evidence_claim = self.claim_of(found, rigid_count, *numbers)
         self.evidence_claim.update({"base_lines": self.check_base_lines(value) for value in base_lines})
         self.evidence_claim.update({"own_frame": self.check_own_frame(value) for value in own_frame})

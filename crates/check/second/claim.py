@@ -30,7 +30,7 @@ class Claims(Pieces):
         group = self.read_group(pieces[0]["bodies"], pieces[0]["edges"], where)
         need(all(map(self.is_unique, group)), f"{where}: a body by rank is not shown to be unique")
         sets = [frozenset(self.nodes(member)) for member in group]
-        return check_solutions(value, sets, where, Meter(self.work_limit))
+        return check_solutions(value, sets, where, Meter(self.work_limit), check=self, is_alone=found[0].by_solutions)
 
     def claim_of(self, pieces, singles, numbers=None):
         """Section 8: the claim that the evidence gives; `numbers` are those of solutions, if they are bounded."""

@@ -18,6 +18,7 @@ class Piece:
         self.scaled = scaled  # the components with a known displacement, as sets of nodes
         self.drawn = self.error = None  # the rank by draws and its error bound
         self.errors = []  # of the separations that the number of components rests on
+        self.by_solutions = False  # whether it is rigid because there is one solution
 
 
 class Pieces(UpperBounds):
@@ -37,14 +38,14 @@ class Pieces(UpperBounds):
     def check_evidence(self, group, proofs, piece, where):
         """Section 7: all evidence of a piece."""
         core = Core(self, group, where)
-        kinds = {"lower": [], **{kind: [] for kind in self.UPPER}, "draws": [], "classes": [], "kernel": []}
+        kinds = {"lower": [], **{kind: [] for kind in self.UPPER}, "draws": [], "classes": [], "kernel": [], "one-solution": []}
         for k, value in enumerate(proofs):
             need(type(value) is dict and "kind" in value, f"{where}evidence {k} has no kind")
             kind = a_string(value["kind"], f"{where}evidence {k}: kind")
             need(kind in kinds or kind not in LABORATORY, f"{where}evidence {k}: evidence {kind} {OF_LABORATORY}")
             need(kind in kinds and kind != "lower" or kind in self.LOWER, f"{where}evidence {k}: no such kind")
             kinds["lower" if kind in self.LOWER else kind].append((value, f"{where}evidence {k}, {kind}"))
-        need(kinds["lower"], f"{where}no lower bound")
+        need(kinds["lower"] or kinds["one-solution"], f"{where}no lower bound")
         need(len(kinds["draws"]) <= 1, f"{where}more than one draws")
         need(len(kinds["classes"]) <= 1, f"{where}more than one classes")
         need(kinds["classes"] or not kinds["kernel"], f"{where}a kernel without classes")
@@ -53,6 +54,12 @@ class Pieces(UpperBounds):
         classes = [self.check_classes(value, group, at) for value, at in kinds["classes"]]
         lower = [(self.check_lower(value, core, at), value) for value, at in kinds["lower"]]
         lower = [(self.core_rank_to_rank(rank, core, piece.required), value) for rank, value in lower]
+        for value, at in kinds["one-solution"]:
+            members(value, "kind", at)
+            need(self.projective, f"{at}: projective model only")
+            need(set(group) == self.everything, f"{at}: the piece is not the whole graph")
+            piece.by_solutions = True
+            lower.append((piece.required, value))
         piece.lower = max(rank for rank, _ in lower)
         need(piece.lower <= piece.upper, f"{where}a lower bound is above an upper bound or required")
         counted = None if core.scales or self.vectors is not None else counted_rank(core.n, core.edges, self.model)

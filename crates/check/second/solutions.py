@@ -1,4 +1,4 @@
-"""Section 12 of docs/certificate.md: bounds for the number of solutions, as the list of its conditions (S1) to (S26).
+"""Section 12 of docs/certificate.md: bounds for the number of solutions, as the list of its conditions (S1) to (S26), and (U1) to (U4).
 
 In comes what the piece is made of (the nodes of its members) and the member `solutions`; out come `at_least` and
 `at_most`. Rows of matrices are dicts from column to residue; only what has to vanish, or not to, is computed.
@@ -6,6 +6,7 @@ In comes what the piece is made of (the nodes of its members) and the member `so
 
 import itertools
 
+from cores import Core
 from notation import TooLarge, a_big, a_list, an_int, distinct, increasing, is_prime, members, need
 
 EXPONENTS = 4096  # (S12)
@@ -121,6 +122,8 @@ PAIRS = {
     "shared": [(0, 1)],
     "triangle": [(0, 1), (0, 2), (1, 2)],
     "biclique": [(0, 2), (0, 3), (0, 4), (1, 2), (1, 3), (1, 4)],
+    "tripod": [(0, 1), (0, 2), (3, 0), (3, 4), (4, 1), (3, 5), (5, 2)],
+    "link": [(0, 1), (3, 4), (0, 3), (1, 4), (2, 6), (6, 5)],
 }
 
 
@@ -137,16 +140,26 @@ def a_residue(value, p, where, least=0):
     return a_big(value, where, least=least, below=p)
 
 
-def check_solutions(value, sets, where, meter, is_part=False, is_factor=False):
-    """Section 12: at_least and at_most (or None), for members with these nodes; of a part, that it is finite solvable."""
-    product = type(value) is dict and "product" in value
-    merges, upper, lower, *factors = members(value, "merges upper lower" + " product" * product, where)
+def check_solutions(value, sets, where, meter, is_part=False, is_factor=False, check=None, is_alone=False):
+    """Section 12: at_least and at_most (or None), for members with these nodes; of a part, that it is finite solvable.
+
+    `check` is that of the certificate where rounds are allowed. With `is_alone` the merges have to leave one member.
+    """
+    product, rounds = (type(value) is dict and name in value for name in ("product", "rounds"))
+    need(check or not rounds, f"{where}: rounds inside of solutions")
+    names = "merges upper lower" + " product" * product + " rounds" * rounds
+    merges, upper, lower, *others = members(value, names, where)
     meter.charge(SPARSE * sum(map(len, sets)))
-    numbered = merged(merges, shared_nodes(sets), where, meter)
+    numbered = Numbered(shared_nodes(sets))
+    if rounds:
+        check_rounds(others[-1], numbered, check, f"{where}: rounds", meter)
+    numbered.merge_all(merges, where, meter)
+    numbered = numbered.left()
+    need(len(numbered) == 1 or not is_alone, f"{where}: one-solution, and {len(numbered)} members are left")
     if product:
         need(not is_part, f"{where}: (S3) a part has no product")
         need(upper is None and lower is None, f"{where}: with a product upper and lower are null")
-        at_least, at_most = check_product(*factors, numbered, f"{where}: product", meter)
+        at_least, at_most = check_product(others[0], numbered, f"{where}: product", meter)
         need(at_most is None or at_least <= at_most, f"{where}: at least {at_least} solutions, and at most {at_most}")
         return at_least, at_most
     left = list(numbered.values())
@@ -162,38 +175,67 @@ def check_solutions(value, sets, where, meter, is_part=False, is_factor=False):
     return at_least, at_most
 
 
-def merged(merges, sets, where, meter):
-    """(S1) to (S3): the members that are left after the merges, by their numbers."""
-    sets, used = list(sets), set()
-    for k, merge in enumerate(a_list(merges, f"{where}: merges")):
-        at = f"{where}: merge {k}"
-        rule, sources, nodes, inner = members(merge, "rule with at solutions", at)
-        sources = [an_int(member, f"{at}: with", 0, len(sets)) for member in a_list(sources, f"{at}: with")]
-        need(len(sources) >= 2, f"{at}: (S1) less than two members")
-        increasing(sources, f"{at}: (S1) with")
-        need(not used & set(sources), f"{at}: (S1) a member was used up")
-        nodes = [an_int(node, f"{at}: at") for node in a_list(nodes, f"{at}: at")]
-        chosen = [sets[member] for member in sources]
-        meter.charge(SPARSE * (sum(map(len, chosen)) + len(nodes)))
-        if rule == "part":
-            check_part(inner, nodes, chosen, at, meter)
-        else:
-            check_rule(rule, inner, nodes, chosen, at)
-        used.update(sources)
-        sets.append(frozenset().union(*chosen))
-    return {member: nodes for member, nodes in enumerate(sets) if member not in used}
+class Numbered:
+    """The members by their numbers, and which of them were used up."""
+
+    def __init__(self, sets):
+        self.sets, self.used = list(sets), set()
+
+    def left(self):
+        return {member: nodes for member, nodes in enumerate(self.sets) if member not in self.used}
+
+    def merge_all(self, merges, where, meter, part=None):
+        """(S1) to (S3), and (U4) in a round, whose part has these nodes."""
+        for k, merge in enumerate(a_list(merges, f"{where}: merges")):
+            at = f"{where}: merge {k}"
+            rule, sources, nodes, inner = members(merge, "rule with at solutions", at)
+            sources = [an_int(member, f"{at}: with", 0, len(self.sets)) for member in a_list(sources, f"{at}: with")]
+            need(len(sources) >= 2, f"{at}: (S1) less than two members")
+            increasing(sources, f"{at}: (S1) with")
+            need(not self.used & set(sources), f"{at}: (S1) a member was used up")
+            nodes = [an_int(node, f"{at}: at") for node in a_list(nodes, f"{at}: at")]
+            chosen = [self.sets[member] for member in sources]
+            meter.charge(SPARSE * (sum(map(len, chosen)) + len(nodes) * (1 if rule == "part" else len(sources))))
+            if rule == "part" and part is None:
+                check_part(inner, nodes, chosen, at, meter)
+            elif rule == "removed" and part is not None:
+                check_removed(inner, nodes, chosen, part, at)
+            else:
+                check_rule(rule, inner, nodes, chosen, at)
+            self.used.update(sources)
+            self.sets.append(frozenset().union(*chosen))
 
 
 def check_rule(rule, inner, nodes, chosen, where):
-    """(S2): two shared nodes, the triangle, or K_{2,3}."""
+    """(S2): two shared nodes, the triangle, K_{2,3}, the tripod, or the link."""
     need(type(rule) is str and rule in PAIRS, f"{where}: (S2) no such rule")
-    need(inner is None, f"{where}: (S2) solutions is not null")
     need(len(nodes) == max(max(pair) for pair in PAIRS[rule]) + 1, f"{where}: (S2) at has another length")
-    need(distinct(nodes), f"{where}: (S2) the nodes of at are not different")
-    pairs = [{nodes[i], nodes[j]} for i, j in PAIRS[rule]]
-    need(all(any(pair <= nodes_of for nodes_of in chosen) for pair in pairs), f"{where}: (S2) a pair lies in no member")
+    need(rule == "link" or distinct(nodes), f"{where}: (S2) the nodes of at are not different")
+    if rule == "tripod":
+        on, off = set(nodes[:3]), set(nodes[3:])
+        need(any(on <= body and not off & body for body in chosen), f"{where}: (S2) no member has the first three nodes alone")
+    if rule == "link":
+        check_link(nodes, chosen, where)
+    check_pairs(inner, [{nodes[i], nodes[j]} for i, j in PAIRS[rule]], chosen, f"{where}: (S2)")
+
+
+def check_link(nodes, chosen, where):
+    """(S2), the nodes of a link, and the two members between which it is."""
+    a, b, c, d, e, f, g = nodes
+    need(distinct([a, b, d, e, g]), f"{where}: (S2) two pairs of the link have a common node")
+    need(c not in (d, e, g) and f not in (a, b, g, c), f"{where}: (S2) an end of the path is where none can be")
+    need((c, f) not in ((a, d), (b, e)), f"{where}: (S2) the plane of {c}, {g} and {f} holds a pair of the link")
+    first, second = ([body for body in chosen if on <= body] for on in ({a, b, c}, {d, e, f}))
+    apart = any(not one & other and g not in one | other for one in first for other in second)
+    need(apart, f"{where}: (S2) the link is not between two members without a common node, nor with {g}")
+
+
+def check_pairs(inner, pairs, chosen, where):
+    """(S2): each pair lies in a member, and each member contains a pair."""
+    need(inner is None, f"{where} solutions is not null")
+    need(all(any(pair <= nodes_of for nodes_of in chosen) for pair in pairs), f"{where} a pair lies in no member")
     fits = all(any(pair <= nodes_of for pair in pairs) for nodes_of in chosen)
-    need(fits, f"{where}: (S2) a member contains none of the pairs")
+    need(fits, f"{where} a member contains none of the pairs")
 
 
 def check_part(inner, nodes, chosen, where, meter):
@@ -206,6 +248,69 @@ def check_part(inner, nodes, chosen, where, meter):
     need(type(inner) is dict and inner.get("lower") is None, f"{where}: (S3) lower is not null")
     at_most = check_solutions(inner, inside, f"{where}: solutions", meter, is_part=True)[1]
     need(at_most == 1, f"{where}: (S3) the part is not shown to have one solution")
+
+
+# Rounds --------------------------------------------------------------------------------------------------------------
+
+
+class Round:
+    """(U1) and (U2): the sets of a round, as the members of its core."""
+
+    vectors = None
+
+    def __init__(self, sets, left, core_limit, where, meter):
+        self.core_limit, self.bodies, self.group = core_limit, [], []
+        inside = {}  # for each node the members that have it
+        for number, nodes in left.items():
+            for node in nodes:
+                inside.setdefault(node, []).append(number)
+        need(len(a_list(sets, f"{where}: sets")) >= 2, f"{where}: (U1) less than two sets")
+        seen = {}
+        for k, listed in enumerate(sets):
+            at = f"{where}: set {k}"
+            nodes = increasing([an_int(node, at) for node in a_list(listed, at)], f"{at}: (U1) the nodes of it")
+            need(len(nodes) >= 2, f"{at}: (U1) less than two nodes")
+            near = min((inside.get(node, []) for node in nodes[:2]), key=len)
+            meter.charge(SPARSE * len(nodes) * (1 + len(near)))
+            need(any(left[number].issuperset(nodes) for number in near), f"{at}: (U1) no member has all its nodes")
+            before = [other for node in nodes for other in seen.setdefault(node, [])]
+            meter.charge(SPARSE * len(before))
+            need(distinct(before), f"{at}: (U1) it shares two nodes with another set")
+            for node in nodes:
+                seen[node].append(k)
+            self.group.append(tuple(nodes) if len(nodes) == 2 else len(self.bodies))
+            self.bodies += [] if len(nodes) == 2 else [frozenset(nodes)]
+        self.part = frozenset(seen)
+
+    def nodes(self, member):
+        return self.bodies[member] if type(member) is int else member
+
+    @staticmethod
+    def is_scaled(group):
+        """Displacements are of another model."""
+        return False
+
+
+def check_rounds(rounds, numbered, check, where, meter):
+    """(U1) to (U4): what is determined together with the neighbours of a node in a part that is rigid without it."""
+    need(a_list(rounds, where), f"{where}: there is none")
+    for k, one in enumerate(rounds):
+        at = f"{where}: round {k}"
+        sets, evidence, merges = members(one, "sets evidence merges", at)
+        found = Round(sets, numbered.left(), check.core_limit, at, meter)
+        core = Core(found, found.group, f"{at}: (U2)")
+        ranks = check.lower_bounds(core, a_list(evidence, f"{at}: evidence"), f"{at}: (U3) evidence")
+        need(check.required(core.n) in ranks, f"{at}: (U3) the part is not shown to be rigid")
+        numbered.merge_all(merges, at, meter, found.part)
+
+
+def check_removed(inner, nodes, chosen, part, where):
+    """(U4): a node that is not in the part, and neighbours of it that are."""
+    need(len(nodes) >= 3 and distinct(nodes), f"{where}: (U4) at has less than three nodes, or one twice")
+    v, *ends = nodes
+    need(v not in part, f"{where}: (U4) node {v} is in the part")
+    need(part.issuperset(ends), f"{where}: (U4) a neighbour is not in the part")
+    check_pairs(inner, [{v, end} for end in ends], chosen, f"{where}: (U4)")
 
 
 # Products ------------------------------------------------------------------------------------------------------------

@@ -496,7 +496,8 @@ class Bodies(Case):
             (merge(with_[:4], at), "one, two, three or five"),
             (merge(with_ + [[0, 5]], at + [5]), "one, two, three or five"),
             (merge(with_, at[:4]), "length of at"),
-            (merge(with_, at + [5]), "length of at"),
+            (merge(with_, at + [5]), "one of the last three nodes is in the body"),
+            (merge(with_, at + [5, 6, 7]), "length of at"),
             (merge([[1, 2], [0, 3], 1, [0, 4], [0, 1]], at), "(0, 1) is not an edge"),
             (merge([[1, 2], [0, 3], 0, [0, 4], [1, 4]], at), "body 0 is consumed already"),
             (merge(with_, at, [0, 3]), "not shared"),
@@ -512,6 +513,55 @@ class Bodies(Case):
             other = json.loads(json.dumps(document))
             merge(others, nodes, seed)(other)
             self.verifies(other)
+
+    def test_tripods_and_links(self):
+        """A K_4 of 0 to 3, on which 4, 5 and 6 hang, 4 and 5 in a triangle with 7; and one of 4 to 7 that a link joins to it."""
+        documents = {}
+        for name in ("tripod", "link"):
+            with open(os.path.join(HERE, f"../tests/certificates/{name}.json"), encoding="utf-8") as file:
+                documents[name] = json.load(file)
+            self.verifies(documents[name])
+
+        def merge(others, at, more=()):
+            def change(other):
+                other["bodies"][1]["merge"] = [{"with": others, "at": at}]
+                for body, added in more:
+                    other["bodies"][body]["add"].append(added)
+            return change
+
+        four = copy.deepcopy(documents["tripod"])
+        merge([[0, 4], 0, [1, 5], [3, 7]], [0, 1, 3, 4, 5, 7])(four)
+        four["bodies"].append({"seed": 1, "add": [[6, 2, 4]], "merge": []})
+        four["rigid"]["bodies"] = [2]
+        self.verifies(four)
+        tripod, link = [[0, 4], 0, [1, 5], [2, 6], [4, 6]], [0, [0, 4], [1, 5], [2, 8], [6, 8]]
+        ends = [0, 1, 2, 4, 5, 6]
+        for name, others, at, more, words in (
+            ("tripod", [[0, 4], [3, 4], [1, 3], [2, 6], [4, 6]], [0, 1, 2, 4, 3, 6], (), "last three nodes is in the body"),
+            ("tripod", tripod, [0, 1, 3, 4, 5, 6], (), "not shared"),
+            ("tripod", tripod, [0, 1, 2, 5, 4, 6], (), "not shared"),
+            ("tripod", tripod, [0, 1, 1, 4, 5, 6], (), "not different"),
+            ("tripod", tripod[:4], ends, (), "not shared"),
+            ("tripod", tripod[:4], ends[:5], (), "the length of at is wrong"),
+            ("link", [0, [0, 4], [1, 5], [0, 8], [4, 8]], [0, 1, 0, 4, 5, 4, 8], (), "holds a pair of the link"),
+            ("link", [0, [0, 4], [1, 5], [1, 8], [5, 8]], [0, 1, 1, 4, 5, 5, 8], (), "holds a pair of the link"),
+            ("link", [0, [0, 4], [0, 5], [2, 8], [6, 8]], [0, 0, 2, 4, 5, 6, 8], (), "have a common node"),
+            ("link", [0, [0, 4], [1, 4], [2, 8], [6, 8]], [0, 1, 2, 4, 4, 6, 8], (), "have a common node"),
+            ("link", link, [*ends, 8], [(0, [3, 6, 7])], "bodies with a common node"),
+            ("link", link, [*ends, 8], [(0, [8, 6, 7])], "node 8 is in one of the two bodies"),
+            ("link", link, [*ends, 8], [(1, [8, 2, 3])], "node 8 is in one of the two bodies"),
+            ("link", link, [1, 0, 2, 4, 5, 6, 8], (), "not shared"),
+        ):
+            self.broken(documents[name], merge(others, at, more), "section 5", words)
+        for others, at in (
+            ([0, [0, 4], [1, 5], [0, 8], [5, 8]], [0, 1, 0, 4, 5, 5, 8]),
+            ([0, [0, 4], [1, 5], [2, 8], [4, 8]], [0, 1, 2, 4, 5, 4, 8]),
+        ):
+            other = copy.deepcopy(documents["link"])
+            merge(others, at)(other)
+            self.verifies(other)
+        for document in documents.values():
+            self.broken(document, lambda other: other.update(model="calibrated"), "projective model only")
 
     def test_cycles_of_four(self):
         """Four triangles around the nodes 0, 1, 2, 3; and two more nodes, on a path from 0 to 2 and a path from 4 to 6."""

@@ -91,6 +91,94 @@ class Case(unittest.TestCase):
         self.rejects(edges, words, upper=changed)
 
 
+def read(name):
+    with open(os.path.join(HERE, f"../tests/solutions/{name}.json"), encoding="utf-8") as file:
+        return json.load(file)
+
+
+class Rounds(unittest.TestCase):
+    """(U1) to (U4), and `one-solution`: three rounds take 12, 7 and 10 away, and what is left is merged."""
+
+    def refused(self, change, words, document=None):
+        other = document or read("rounds")
+        before = json.dumps(other)
+        change(other)
+        self.assertNotEqual(json.dumps(other), before)
+        with self.subTest(words=words), self.assertRaises(notation.Reject) as caught:
+            check.check(json.dumps(other).encode())
+        self.assertIn(words, str(caught.exception))
+
+    def test_they_are_verified(self):
+        done = check.check(json.dumps(read("rounds")).encode())
+        self.assertEqual((done.claim["verdict"]["value"], done.claim["solutions"]["at_most"]), ("solvable", 1))
+
+    def test_conditions(self):
+        def put(value, *path):
+            def change(other):
+                *before, last = path
+                place = other["solutions"]["rounds"]
+                for name in before:
+                    place = place[name]
+                place[last] = value
+            return change
+
+        def add(value, k):
+            return lambda other: other["solutions"]["rounds"][k]["sets"].append(value)
+
+        def in_order(*places):
+            return lambda other: other["solutions"].update(rounds=[other["solutions"]["rounds"][k] for k in places])
+
+        other_evidence = read("rounds")["solutions"]["rounds"][1]["evidence"]
+        for change, words in (
+            (put([[0, 7]], 0, "sets"), "(U1) less than two sets"),
+            (put([7, 0], 0, "sets", 0), "(U1) the nodes of it is not increasing"),
+            (put([7], 0, "sets", 0), "(U1) less than two nodes"),
+            (put([0, 8], 0, "sets", 0), "(U1) no member has all its nodes"),
+            (put([1, 4], 0, "sets", 16), "(U1) no member has all its nodes"),
+            (put([1, 4, 7], 1, "sets", 13), "(U1) no member has all its nodes"),
+            (add([0, 7], 0), "set 17: (U1) it shares two nodes with another set"),
+            (add([1, 9], 1), "set 14: (U1) it shares two nodes with another set"),
+            (put([[0, 9], [0, 10], [1, 4, 9, 12]], 1, "sets"), "(U2)"),
+            (put([], 0, "evidence"), "(U3) the part is not shown to be rigid"),
+            (put(other_evidence, 0, "evidence"), "(U3) evidence"),
+            (put([{"kind": "one-solution"}], 1, "evidence"), "the evidence is no lower bound"),
+            (lambda other: other["solutions"]["rounds"][0]["sets"].pop(), "(U3) evidence"),
+            (put([12, 1], 0, "merges", 0, "at"), "(U4) at has less than three nodes, or one twice"),
+            (put([12, 1, 1], 0, "merges", 0, "at"), "(U4) at has less than three nodes, or one twice"),
+            (put([1, 4, 9], 0, "merges", 0, "at"), "(U4) node 1 is in the part"),
+            (put([12, 1, 12345], 0, "merges", 0, "at"), "(U4) a neighbour is not in the part"),
+            (put([12, 1, 9], 0, "merges", 0, "at"), "(U4) a pair lies in no member"),
+            (put([0, 7, 15], 0, "merges", 0, "with"), "(U4) a member contains none of the pairs"),
+            (put(value(), 0, "merges", 0, "solutions"), "(U4) solutions is not null"),
+            (put("part", 0, "merges", 0, "rule"), "(S2) no such rule"),
+            (in_order(1, 0, 2), "(U1) no member has all its nodes"),
+            (in_order(0, 2, 1), "(U1) no member has all its nodes"),
+            (in_order(), "there is none"),
+            (lambda other: other["solutions"]["merges"][0].update(rule="removed"), "(S2) no such rule"),
+        ):
+            self.refused(change, words)
+        for name, place in (("part", "merges"), ("product", "product")):
+            inside = lambda other: other["solutions"][place][0]["solutions"].update(rounds=[])  # noqa: E731
+            self.refused(inside, "rounds inside of solutions", read(name))
+
+    def test_one_solution(self):
+        self.refused(lambda other: other["solutions"]["merges"].pop(), "one-solution, and 3 members are left")
+
+        def without(other):
+            del other["solutions"], other["claim"]["solutions"]
+
+        self.refused(without, "one-solution, and no solutions")
+        more = lambda other: other["pieces"][0]["evidence"][0].update(rank=1)  # noqa: E731
+        self.refused(more, "the member rank is unknown")
+        square = make.Maker(graphs.Graph(5, [(0, 1), (0, 3), (1, 2), (2, 3), (3, 4)])).document(check_it=False)
+        square["pieces"][0]["evidence"] = [{"kind": "one-solution"}]
+        self.refused(lambda other: other.update(program=""), "the piece is not the whole graph", square)
+        with open(os.path.join(HERE, "../tests/certificates/pentagon-calibrated.json"), encoding="utf-8") as file:
+            pentagon = json.load(file)
+        pentagon["pieces"][0]["evidence"] = square["pieces"][0]["evidence"]
+        self.refused(lambda other: other.update(program=""), "projective model only", pentagon)
+
+
 class Merges(Case):
     """(S1) to (S3)."""
 
@@ -129,6 +217,54 @@ class Merges(Case):
             ("shared", [0, 1], [0, 2], None, "(S2) a member contains none of the pairs"),
         ]:
             self.rejects(BICLIQUE, words, [merge(rule, sources, at, inner)])
+
+    def test_tripods_and_links(self):
+        """(S2): the same members as in `link.json`."""
+        bodies, loose = [frozenset(range(4)), frozenset(range(4, 8))], read("link")["pieces"][0]["edges"]
+        sets = bodies + [frozenset(edge) for edge in loose]
+
+        def numbers(*edges):
+            return [2 + loose.index(list(edge)) for edge in edges]
+
+        def link(at, edges, first=(), bodies=(0, 1)):
+            return [*first, merge("link", sorted([*bodies, *numbers(*edges)]), at)]
+
+        def left(merges):
+            numbered = solutions.Numbered(solutions.shared_nodes(sets))
+            numbered.merge_all(merges, "section 12", solutions.Meter())
+            return len(numbered.left())
+
+        ends, four = [0, 1, 2, 4, 5, 6, 8], [(0, 4), (1, 5), (2, 8), (6, 8)]
+        self.assertEqual(left(link(ends, four)), len(sets) - 5)
+        self.assertEqual(left(link([0, 1, 0, 4, 5, 5, 8], [(0, 4), (1, 5), (0, 8), (5, 8)])), len(sets) - 5)
+        joined = link(ends, four)
+        tripod = [len(sets), *numbers((0, 9), (1, 10), (3, 11), (9, 10), (9, 11))]
+        self.assertEqual(left([*joined, merge("tripod", sorted(tripod), [0, 1, 3, 9, 10, 11])]), len(sets) - 10)
+        inside = [len(sets), *numbers((0, 9), (3, 9), (2, 11), (9, 11))]
+        moved = [ends[:k] + [node] + ends[k + 1 :] for k, node in ((2, 4), (2, 5), (2, 8), (5, 0), (5, 1), (5, 2), (5, 8))]
+
+        def grown(rule, sources, at):
+            return [merge(rule, sources, at)]
+
+        six, eight = numbers((3, 6), (3, 7)), numbers((6, 8), (7, 8))
+        for merges, words in (
+            (link([0, 0, 2, 4, 5, 6, 8], [(0, 4), (0, 5), (2, 8), (6, 8)]), "two pairs of the link have a common node"),
+            (link([0, 1, 2, 4, 4, 6, 8], [(0, 4), (1, 4), (2, 8), (6, 8)]), "two pairs of the link have a common node"),
+            *((link(at, four), "an end of the path is where none can be") for at in moved),
+            (link([0, 1, 0, 4, 5, 4, 8], [(0, 4), (1, 5), (0, 8), (4, 8)]), "the plane of 0, 8 and 4"),
+            (link([0, 1, 1, 4, 5, 5, 8], [(0, 4), (1, 5), (1, 8), (5, 8)]), "the plane of 1, 8 and 5"),
+            (link(ends, four[:3]), "(S2) a pair lies in no member"),
+            (link(ends[:6], four), "(S2) at has another length"),
+            (link(ends, four, grown("triangle", [1, *six], [3, 6, 7]), (0, len(sets))), "not between two members"),
+            (link(ends, four[:3], grown("triangle", [1, *eight], [6, 7, 8]), (0, len(sets))), "not between two members"),
+            (link(ends, four[:3], bodies=()), "not between two members"),
+            ([*joined, merge("tripod", sorted(inside), [0, 1, 2, 9, 3, 11])], "no member has the first three nodes alone"),
+            ([*joined, merge("tripod", sorted(tripod), [0, 1, 1, 9, 10, 11])], "(S2) the nodes of at are not different"),
+            ([*joined, merge("tripod", sorted(tripod)[:-1], [0, 1, 3, 9, 10, 11])], "(S2)"),
+        ):
+            with self.subTest(words=words), self.assertRaises(notation.Reject) as caught:
+                left(merges)
+            self.assertIn(words, str(caught.exception))
 
     def test_unshared_nodes_do_not_count(self):
         sets = [frozenset({0, 1, 5}), frozenset({1, 2}), frozenset({0, 2, 5}), frozenset({0, 3}), frozenset({2, 3})]

@@ -160,11 +160,12 @@ impl Builder<'_> {
     }
 
     /// Bodies on a cycle, of which neighbours share a node, become one (theory, rules 2 and 3 of
-    /// Theorem 4.1, and rule 5 of Theorem 4.9), and so do six around a K_{2,3} (Theorem 10.3), and
-    /// two scaled ones that share a node (Theorem 13.16). What comes of it is unique if all of them
+    /// Theorem 4.1, and rule 5 of Theorem 4.9), and so do six around a K_{2,3} (Theorem 10.3), a
+    /// tripod or a link (Theorems 18.7 and 18.8), and two scaled ones that share a node (Theorem 13.16). What comes of it is unique if all of them
     /// are.
     fn merge(&mut self, body: &mut Built, step: &Merge) -> Checked<()> {
         let places = self.places(step)?;
+        let is_link = step.at.len() == 7;
         let parts = step.with.iter().map(|&source| self.take(source));
         let parts = parts.collect::<Checked<Vec<Built>>>()?;
         ensure!(
@@ -172,7 +173,7 @@ impl Builder<'_> {
             "only bodies with known displacements merge at one node"
         );
         ensure!(
-            step.at.iter().collect::<HashSet<_>>().len() == step.at.len(),
+            is_link || step.at.iter().collect::<HashSet<_>>().len() == step.at.len(),
             "the nodes of `at` are not different"
         );
         if step.at.len() > 2 {
@@ -187,6 +188,14 @@ impl Builder<'_> {
                 which.iter().all(|&k| members[k].contains(node)),
                 "node {node} is not where the merge needs it"
             );
+        }
+        match step.at[..] {
+            [_, _, _, ref others @ ..] if others.len() == 3 => ensure!(
+                others.iter().all(|node| !body.nodes.contains(node)),
+                "one of the last three nodes of a tripod is in the body"
+            ),
+            [a, b, c, d, e, f, g] => check_link([a, b, c, d, e, f, g], members[0], members[1])?,
+            _ => {}
         }
         body.scaled |= parts.iter().any(|part| part.scaled);
         body.unique &= parts.iter().all(|part| part.unique);
@@ -208,19 +217,53 @@ impl Builder<'_> {
                 );
                 Ok(&[&[0, 1], &[1, 2], &[2, 3], &[0, 3]])
             }
-            (5, 5) => {
+            (4, 6) | (5, 5..=7) => {
                 ensure!(
                     self.setting.model == Model::Projective,
-                    "six bodies are merged in the projective model only"
+                    "so many bodies are merged in the projective model only"
                 );
-                Ok(&[&[0, 2, 4], &[1, 3, 5], &[0, 1], &[2, 3], &[4, 5]])
+                Ok(match (step.with.len(), step.at.len()) {
+                    (4, _) => &[&[0, 1], &[0, 3], &[0, 4], &[1, 2], &[2, 3], &[2, 4]],
+                    (_, 5) => &[&[0, 2, 4], &[1, 3, 5], &[0, 1], &[2, 3], &[4, 5]],
+                    (_, 6) => &[&[0, 1], &[0, 3], &[0, 4], &[1, 2, 5], &[2, 3], &[4, 5]],
+                    _ => &[
+                        &[0, 2],
+                        &[0, 3],
+                        &[0, 4],
+                        &[1, 2],
+                        &[1, 3],
+                        &[1, 5],
+                        &[4, 5],
+                    ],
+                })
             }
             _ => Err(Failure::rejected(
-                "`with` and `at` have one and one or two, two and three, three and four, or five \
-                 and five entries",
+                "`with` and `at` have one and one or two, two and three, three and four, four and \
+                 six, or five and five to seven entries",
             )),
         }
     }
+}
+
+/// What a link between two bodies asks for besides where its nodes are (theory, Theorem 18.8).
+fn check_link([a, b, c, d, e, f, g]: [u32; 7], first: &Nodes, second: &Nodes) -> Checked<()> {
+    ensure!(
+        first.is_disjoint(second),
+        "a link between two bodies that have a node in common"
+    );
+    ensure!(
+        !first.contains(&g) && !second.contains(&g),
+        "node {g} is in one of the two bodies that a link joins"
+    );
+    ensure!(
+        a != b && d != e,
+        "two pairs of a link have a node in common"
+    );
+    ensure!(
+        (c, f) != (a, d) && (c, f) != (b, e),
+        "the plane of {c}, {g} and {f} holds a pair of the link"
+    );
+    Ok(())
 }
 
 /// The smaller set goes into the larger one, so that all unions together take n log n steps.

@@ -231,6 +231,7 @@ kinds! {
         "draws" Draws { seed: u64, count: u64, rank: i64 }
         "classes" Classes { classes: Vec<Class> }
         "kernel" Kernel { prime: u64, seed: u64, draw: u64, vector: Vec<Big<u64>> }
+        "one-solution" OneSolution {}
     }
     members {
         prime: Prime, seed: Big<u64>, draw: u64, rows: Vec<usize>, cols: Vec<usize>,

@@ -30,6 +30,8 @@ pub(crate) struct Piece {
     /// The errors with which classes here and inside of classes are separated; `None` if some are
     /// not.
     pub separated: Option<Vec<i64>>,
+    /// Whether it is rigid because there is one solution, which the evidence for their number shows.
+    pub by_solutions: bool,
     pub notes: Vec<String>,
 }
 
@@ -63,6 +65,7 @@ fn rigid_piece(structure: &Structure, part: &Part) -> Piece {
         components: 1,
         scaled: scaled(structure, part),
         separated: Some(Vec::new()),
+        by_solutions: false,
         notes: Vec::new(),
     }
 }
@@ -113,6 +116,8 @@ struct Shown {
     classes: Option<Classes>,
     /// Where the classes are told apart.
     apart: Vec<Place>,
+    /// See [`Piece`].
+    by_solutions: bool,
 }
 
 /// Verifies all evidence of a piece, and says what it amounts to.
@@ -138,6 +143,7 @@ impl Shown {
             drawn: None,
             classes: None,
             apart: Vec::new(),
+            by_solutions: false,
         };
         // Kernels need the classes and draws, which may come later.
         let is_kernel = |one: &&(usize, &Evidence)| matches!(one.1, Evidence::Kernel(_));
@@ -175,6 +181,18 @@ impl Shown {
             Evidence::Classes(list) => {
                 ensure!(self.classes.is_none(), "a second `classes` in the piece");
                 self.classes = Some(check_classes(list, structure, piece)?);
+            }
+            Evidence::OneSolution(_) => {
+                ensure!(
+                    structure.setting.model == Model::Projective && *piece == structure.everything,
+                    "not a piece that is the whole graph, in the projective model"
+                );
+                self.by_solutions = true;
+                self.bounds.push(Lower {
+                    rank: core.required(structure.setting),
+                    at: None,
+                    note: None,
+                });
             }
             Evidence::Kernel(kernel) => {
                 let place = self.place(kernel, structure, core)?;
@@ -226,6 +244,7 @@ impl Shown {
             components,
             scaled,
             separated,
+            by_solutions: self.by_solutions,
             notes: notes.collect(),
         })
     }

@@ -15,7 +15,7 @@
 //! | known parts are those that are given | 3 | 4.14 | `parts` |
 //! | displacements are well formed, and those that are given | 3 | 13.16 | `displacements` |
 //! | given vectors are, and nodes independent | 3, 5, 6 | 13.21 | `vectors` |
-//! | bodies come from parts, merges and ranks | 5 | 4.1, 4.9, 4.14, 4.15, 13.9, 13.16 | `bodies` |
+//! | bodies come from parts, merges and ranks | 5 | 4.1, 4.9, 4.14, 4.15, 13.9, 13.16, 18.7, 18.8 | `bodies` |
 //! | no edge is covered twice | 6 | 4.4 | `structure` |
 //! | pieces: a partition, no cycle | 6 | 4.3, 4.7, 4.10, 13.10, 13.17 | `division` |
 //! | cores are formed | 6 | 4.4, 4.11, 13.11, 13.18 | `structure` |
@@ -27,7 +27,7 @@
 //! | motions tell classes apart | 7, 9 | 6.4, 6.7, 6.8, 13.13, 13.19 | `kernel` |
 //! | unknown base lines | 13 | 13.26, 13.27 | `base_lines`, with `frames` and `matrix` |
 //! | a frame of its own | 16 | 13.29 to 13.31 | `own_frame` |
-//! | the number of solutions | 12 | 10.2 to 10.17 | `solutions`, a file for each kind |
+//! | the number of solutions | 12 | 10.2 to 10.17, 18.3, 18.6 | `solutions`, a file for each kind |
 //! | what is determined at given cameras | 14 | 16.1 to 16.4 | `here`, all of it |
 //! | what is determined of intrinsics | 15 | 17.3, 17.6 to 17.9 | `intrinsics`, all of it |
 //! | the claim is what follows | 8 | 1.3, 4.2, 4.6, 4.8, 4.12, 13.2, 13.17, 13.20 | `claim` |
@@ -89,7 +89,7 @@ pub use own_frame::OwnFrame;
 pub use rejection::{Failure, Rejection, TooLarge, Unreadable};
 pub use solutions::Count;
 
-use rejection::Within;
+use rejection::{Within, ensure};
 
 /// Verifies a certificate, for the given graph with its known parts and displacements or, without
 /// one, for the graph that it holds with what it states.
@@ -212,6 +212,10 @@ impl Certificate {
             count.within(|| "solutions".into())
         });
         let count = evidence.transpose()?;
+        ensure!(
+            count.is_some() || pieces.iter().all(|piece| !piece.by_solutions),
+            "`one-solution` in a piece, and no `solutions`"
+        );
         let scaled: Vec<_> = pieces
             .iter()
             .flat_map(|piece| piece.scaled.clone())

@@ -2,7 +2,7 @@
 //! nothing else; with the reason that must be given. `conditions.py` sees to it that there is one
 //! for each condition.
 
-use crate::changes::{at, changed, named, refused, rejection};
+use crate::changes::{at, at as at_pointer, changed, named, refused, rejection};
 use serde_json::{Value, json};
 use viewcert_check::{Certificate, Failure, Graph, Limits, check};
 
@@ -243,13 +243,13 @@ fn section_5_bodies() {
             "merges",
             "/bodies/3/merge/0/at",
             json!([2, 0]),
-            "bodies[3].merge[0]: `with` and `at` have one and one or two, two and three, three and four, or five and five",
+            "bodies[3].merge[0]: `with` and `at` have one and one or two, two and three, three and four, four and six, or five and five",
         ),
         (
             "merges",
             "/bodies/3/merge/0/with",
             json!([1]),
-            "bodies[3].merge[0]: `with` and `at` have one and one or two, two and three, three and four, or five and five",
+            "bodies[3].merge[0]: `with` and `at` have one and one or two, two and three, three and four, four and six, or five and five",
         ),
         (
             "merges",
@@ -482,7 +482,7 @@ fn section_5_cycles_of_four() {
             "ring",
             &merge(json!([1, 2, 3]), at),
             &format!(
-                "{step}`with` and `at` have one and one or two, two and three, three and four, or five and five"
+                "{step}`with` and `at` have one and one or two, two and three, three and four, four and six, or five and five"
             ),
         );
     }
@@ -511,6 +511,151 @@ fn section_5_cycles_of_four() {
         changes.retain(|(pointer, new)| named("ring").pointer(pointer) != Some(new));
         let text = changed("ring", &changes).to_string();
         assert!(check(text.as_bytes(), None).is_ok(), "{with:?}");
+    }
+}
+
+/// A K_4 of 0 to 3, on which 4, 5 and 6 hang; 4 and 5 are in a triangle with 7.
+#[test]
+fn section_5_tripods() {
+    let step = "bodies[1].merge[0]: ";
+    let (with, at) = (
+        json!([[0, 4], 0, [1, 5], [2, 6], [4, 6]]),
+        [0, 1, 2, 4, 5, 6],
+    );
+    let tripod = |with: Value, at: &[u32]| {
+        let merge = json!({"with": with, "at": at});
+        changed("tripod", &[("/bodies/1/merge/0", merge)])
+    };
+    // The triangle holds both pairs of 4.
+    let mut four = tripod(json!([[0, 4], 0, [1, 5], [3, 7]]), &[0, 1, 3, 4, 5, 7]);
+    let last = json!({"seed": 1, "add": [[6, 2, 4]], "merge": []});
+    four["bodies"].as_array_mut().unwrap().push(last);
+    four["rigid"]["bodies"] = json!([2]);
+    assert!(check(four.to_string().as_bytes(), None).is_ok());
+    // All nodes in the place of others.
+    for (k, v) in (0..6).flat_map(|k| (0..8).map(move |v| (k, v))) {
+        let mut moved = at;
+        moved[k] = v;
+        if moved != at {
+            let reason = rejection(&tripod(with.clone(), &moved), None);
+            assert!(reason.starts_with(step), "{moved:?}: {reason}");
+        }
+    }
+    // With a node of the body it is false (theory, Theorem 18.7).
+    let inside = tripod(
+        json!([[0, 4], [3, 4], [1, 3], [2, 6], [4, 6]]),
+        &[0, 1, 2, 4, 3, 6],
+    );
+    assert_eq!(
+        rejection(&inside, None),
+        format!("{step}one of the last three nodes of a tripod is in the body")
+    );
+    let few = rejection(
+        &tripod(json!([[0, 4], 0, [1, 5], [2, 6]]), &[0, 1, 2, 4, 5]),
+        None,
+    );
+    assert!(few.starts_with(&format!("{step}`with` and `at`")), "{few}");
+    refused(
+        "tripod",
+        &[("/model", json!("calibrated"))],
+        &format!("{step}so many bodies are merged in the projective model only"),
+    );
+}
+
+/// A K_4 of 0 to 3 and one of 4 to 7, with the pairs 04 and 15 and the path 2, 8, 6 between them.
+#[test]
+fn section_5_links() {
+    let step = "bodies[1].merge[0]: ";
+    let link = |with: Value, at: [u32; 7], more: &[(&str, Value)]| {
+        let merge = json!({"with": with, "at": at});
+        let mut value = named("link");
+        *at_pointer(&mut value, "/bodies/1/merge/0") = merge;
+        for (pointer, added) in more {
+            let list = at_pointer(&mut value, pointer).as_array_mut().unwrap();
+            list.push(added.clone());
+        }
+        value
+    };
+    let with = || json!([0, [0, 4], [1, 5], [2, 8], [6, 8]]);
+    let at = [0, 1, 2, 4, 5, 6, 8];
+    // The path begins where one pair does, and ends where the other one does.
+    for (with, at) in [
+        (
+            json!([0, [0, 4], [1, 5], [0, 8], [5, 8]]),
+            [0, 1, 0, 4, 5, 5, 8],
+        ),
+        (
+            json!([0, [0, 4], [1, 5], [0, 8], [6, 8]]),
+            [0, 1, 0, 4, 5, 6, 8],
+        ),
+        (
+            json!([0, [0, 4], [1, 5], [2, 8], [4, 8]]),
+            [0, 1, 2, 4, 5, 4, 8],
+        ),
+    ] {
+        let value = link(with, at, &[]);
+        assert!(check(value.to_string().as_bytes(), None).is_ok(), "{at:?}");
+    }
+    for (with, at, more, wanted) in [
+        (
+            json!([0, [0, 4], [1, 5], [0, 8], [4, 8]]),
+            [0, 1, 0, 4, 5, 4, 8],
+            &[][..],
+            "the plane of 0, 8 and 4 holds a pair of the link",
+        ),
+        (
+            json!([0, [0, 4], [1, 5], [1, 8], [5, 8]]),
+            [0, 1, 1, 4, 5, 5, 8],
+            &[],
+            "the plane of 1, 8 and 5 holds a pair of the link",
+        ),
+        (
+            json!([0, [0, 4], [0, 5], [2, 8], [6, 8]]),
+            [0, 0, 2, 4, 5, 6, 8],
+            &[],
+            "two pairs of a link have a node in common",
+        ),
+        (
+            json!([0, [0, 4], [1, 4], [2, 8], [6, 8]]),
+            [0, 1, 2, 4, 4, 6, 8],
+            &[],
+            "two pairs of a link have a node in common",
+        ),
+        (
+            with(),
+            at,
+            &[("/bodies/0/add", json!([3, 6, 7]))],
+            "a link between two bodies that have a node in common",
+        ),
+        (
+            with(),
+            at,
+            &[("/bodies/0/add", json!([8, 6, 7]))],
+            "node 8 is in one of the two bodies that a link joins",
+        ),
+        (
+            with(),
+            at,
+            &[("/bodies/1/add", json!([8, 2, 3]))],
+            "node 8 is in one of the two bodies that a link joins",
+        ),
+        (
+            json!([0, [1, 5], [0, 4], [2, 8], [6, 8]]),
+            at,
+            &[],
+            "node 0 is not where the merge needs it",
+        ),
+    ] {
+        let reason = rejection(&link(with, at, more), None);
+        assert_eq!(reason, format!("{step}{wanted}"));
+    }
+    for (k, v) in (0..7).flat_map(|k| (0..9).map(move |v| (k, v))) {
+        let mut moved = at;
+        moved[k] = v;
+        if moved != at {
+            let reason = rejection(&link(with(), moved, &[]), None);
+            assert!(reason.starts_with(step), "{moved:?}: {reason}");
+        }
     }
 }
 
@@ -556,13 +701,11 @@ fn section_5_bicliques() {
             misplaced(&merge(&with, &other));
         }
     }
-    let lengths =
-        "`with` and `at` have one and one or two, two and three, three and four, or five and five";
+    let lengths = "`with` and `at` have one and one or two, two and three, three and four, four and six, or five and five";
     let six = [&with[..], &[json!([0, 5])]].concat();
     for (with, at) in [
         (&with[..4], &at[..]),
         (&with[..], &at[..4]),
-        (&with[..], &[0, 1, 2, 3, 4, 5][..]),
         (&six[..], &at[..]),
         (&six[..], &[0, 1, 2, 3, 4, 5][..]),
     ] {
@@ -571,7 +714,7 @@ fn section_5_bicliques() {
     refused(
         "biclique",
         &[("/model", json!("calibrated"))],
-        &format!("{step}six bodies are merged in the projective model only"),
+        &format!("{step}so many bodies are merged in the projective model only"),
     );
     refused(
         "biclique",

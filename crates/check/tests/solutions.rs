@@ -4,7 +4,7 @@
 use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
-use viewcert_check::{Certificate, Count, Failure, Limits, Number, Verdict, check};
+use viewcert_check::{Certificate, Count, Failure, Graph, Limits, Number, Verdict, check};
 
 /// 2^61 - 1, the modulus of these certificates.
 const P: u64 = (1 << 61) - 1;
@@ -131,7 +131,7 @@ fn what_the_laboratory_has_is_refused_by_name() {
 #[test]
 fn all_are_verified() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/solutions");
-    assert_eq!(fs::read_dir(folder).unwrap().count(), 14);
+    assert_eq!(fs::read_dir(folder).unwrap().count(), 16);
     for (name, solutions) in [
         ("linear", 1),
         ("part", 1),
@@ -147,6 +147,8 @@ fn all_are_verified() {
         ("choices", 1),
         ("glued", 4),
         ("chain", 1),
+        ("link", 1),
+        ("rounds", 1),
     ] {
         let text = text_of(name).to_string();
         let verified =
@@ -1804,4 +1806,275 @@ fn scalars(value: &Value, place: String, places: &mut Vec<String>) {
         }
         _ => places.push(place),
     }
+}
+
+/// Changes the merges of `link` from one on.
+fn linked(from: usize, merges: &[(&str, &[usize], &[u32])]) -> Value {
+    let mut value = text_of("link");
+    let list = at(&mut value, "M").as_array_mut().unwrap();
+    list.truncate(from);
+    for (rule, with, at) in merges {
+        list.push(json!({"rule": rule, "with": with, "at": at, "solutions": null}));
+    }
+    value
+}
+
+/// Two K_4 of 0 to 3 and of 4 to 7, which a link joins; then a tripod. Members 0 and 1 are the bodies, and
+/// edges follow: 04, 05, 08, 09, 14, 15, 18, 1-10, 28, 2-11, 36, 37, 38, 39, 3-11, 48, 58, 68, 78, 9-10, 9-11.
+#[test]
+fn s2_tripods_and_links() {
+    let link = [0, 1, 2, 7, 10, 19];
+    for (with, at) in [
+        ([0, 1, 2, 7, 4, 18], [0, 1, 0, 4, 5, 5, 8]),
+        ([0, 1, 2, 7, 4, 19], [0, 1, 0, 4, 5, 6, 8]),
+        ([0, 1, 2, 7, 10, 17], [0, 1, 2, 4, 5, 4, 8]),
+    ] {
+        let mut with = with;
+        with.sort_unstable();
+        let reason = reason(&linked(0, &[("link", &with, &at)]));
+        let wanted = "solutions: `one-solution` where the merges leave several members";
+        assert_eq!(reason, wanted, "{at:?}");
+    }
+    let at = [0, 1, 2, 4, 5, 6, 8];
+    let common = "two pairs of the link have a node in common";
+    let apart = "the link does not join two members without a node in common, nor with 8";
+    let end = "an end of the path of the link is where none can be";
+    let first = |rule, with: &[usize], at: &[u32], wanted: &str| {
+        let reason = reason(&linked(0, &[(rule, with, at)]));
+        assert_eq!(reason, format!("solutions.merges[0]: {wanted}"));
+    };
+    first(
+        "link",
+        &[0, 1, 2, 3, 10, 19],
+        &[0, 0, 2, 4, 5, 6, 8],
+        common,
+    );
+    first(
+        "link",
+        &[0, 1, 2, 6, 10, 19],
+        &[0, 1, 2, 4, 4, 6, 8],
+        common,
+    );
+    for (place, node) in [(2, 4), (2, 5), (2, 8), (5, 0), (5, 1), (5, 2), (5, 8)] {
+        let mut moved = at;
+        moved[place] = node;
+        first("link", &link, &moved, end);
+    }
+    let plane = "the plane of 0, 8 and 4 holds a pair of the link";
+    first("link", &[0, 1, 2, 4, 7, 17], &[0, 1, 0, 4, 5, 4, 8], plane);
+    let plane = "the plane of 1, 8 and 5 holds a pair of the link";
+    first("link", &[0, 1, 2, 7, 8, 18], &[0, 1, 1, 4, 5, 5, 8], plane);
+    first("link", &link[1..], &at, apart);
+    first(
+        "link",
+        &link[..1],
+        &at,
+        "`with` is not an increasing list of two members or more",
+    );
+    first("link", &link[..5], &at, "no member of `with` holds 8 and 6");
+    first("link", &link, &at[..6], "`link` is no rule for 6 nodes");
+    // A member of the link has a node of the other one, or 8.
+    for (triangle, others) in [
+        (
+            ("triangle", &[1, 12, 13][..], &[3, 6, 7][..]),
+            [0, 2, 7, 10, 19, 23],
+        ),
+        (
+            ("triangle", &[1, 19, 20][..], &[6, 7, 8][..]),
+            [0, 2, 7, 10, 23, 23],
+        ),
+        (
+            ("triangle", &[0, 10, 14][..], &[2, 3, 8][..]),
+            [1, 2, 7, 19, 23, 23],
+        ),
+    ] {
+        let mut others = others.to_vec();
+        others.dedup();
+        let reason = reason(&linked(0, &[triangle, ("link", &others, &at)]));
+        assert_eq!(reason, format!("solutions.merges[1]: {apart}"));
+    }
+    let second = |with: &[usize], at: &[u32], wanted: &str| {
+        let reason = reason(&linked(1, &[("tripod", with, at)]));
+        assert_eq!(reason, format!("solutions.merges[1]: {wanted}"));
+    };
+    // 5 hangs on the body as 4 in K_4 with 04, 45 and 51 does: with a node of the body it is false.
+    let body = "no member of `with` has the first three nodes of `at` and none of the others";
+    second(&[5, 11, 15, 22, 23], &[0, 1, 2, 9, 3, 11], body);
+    second(&[5, 9, 16, 21, 22], &[0, 1, 3, 9, 10, 11], body);
+    let different = "the nodes of `at` are not different";
+    second(&[5, 9, 16, 21, 22, 23], &[0, 1, 1, 9, 10, 11], different);
+    second(
+        &[5, 9, 16, 21, 23],
+        &[0, 1, 3, 9, 10, 11],
+        "no member of `with` holds 9 and 11",
+    );
+}
+
+/// A change of one round of `rounds`.
+fn round_refused(round: usize, member: &str, new: Value, wanted: &str) {
+    let pointer = format!("/solutions/rounds/{round}/{member}");
+    let wanted = wanted.replace("R[", "solutions.rounds[");
+    refused("rounds", &[(&pointer, new)], &wanted);
+}
+
+/// Three rounds take 12, 7 and 10 away. Members 0 to 18 are the edges, and the rest is merged behind the rounds.
+#[test]
+fn u1_to_u4_rounds() {
+    let sets = |round| value_at("rounds", &format!("/solutions/rounds/{round}/sets"));
+    let with = |round, added: Value| {
+        let mut all = sets(round);
+        all.as_array_mut().unwrap().push(added);
+        all
+    };
+    round_refused(0, "sets", json!([[0, 7]]), "R[0]: fewer than two sets");
+    let increasing = "R[0]: sets[0] is not an increasing list of two nodes or more";
+    for set in [json!([7, 0]), json!([7]), json!([7, 7])] {
+        round_refused(0, "sets/0", set, increasing);
+    }
+    let none =
+        |round, set| format!("R[{round}]: no member that is left has all nodes of sets[{set}]");
+    round_refused(0, "sets/0", json!([0, 8]), &none(0, 0));
+    round_refused(0, "sets/0", json!([0, 7, 9]), &none(0, 0));
+    // 9 and 1 are in one member from the first round on, and 1, 4 and 7 in none.
+    round_refused(0, "sets/16", json!([1, 4]), &none(0, 16));
+    round_refused(1, "sets/13", json!([1, 4, 7]), &none(1, 13));
+    round_refused(
+        0,
+        "sets",
+        with(0, json!([0, 7])),
+        "R[0]: sets[17] shares two nodes with another set",
+    );
+    round_refused(
+        1,
+        "sets",
+        with(1, json!([1, 9])),
+        "R[1]: sets[14] shares two nodes with another set",
+    );
+    let lonely = json!([[0, 9], [0, 10], [1, 4, 9, 12]]);
+    round_refused(
+        1,
+        "sets",
+        lonely,
+        "R[1]: sets[2] has fewer than two nodes in the core",
+    );
+    // Evidence is bound to the core, which has to be rigid.
+    round_refused(
+        0,
+        "evidence",
+        json!([]),
+        "R[0]: not proved to have the rank",
+    );
+    let other = value_at("rounds", "/solutions/rounds/1/evidence");
+    round_refused(0, "evidence", other, "R[0].evidence[0] (plane-flow)");
+    let one = json!([{"kind": "one-solution"}]);
+    round_refused(
+        1,
+        "evidence",
+        one,
+        "R[1].evidence[0] (one-solution): not a lower bound",
+    );
+    let mut fewer = sets(0);
+    fewer.as_array_mut().unwrap().pop();
+    round_refused(0, "sets", fewer, "R[0].evidence[0] (plane-flow)");
+    // What is merged.
+    let few = "R[0].merges[0]: `at` has less than three nodes, or one twice";
+    for at in [json!([12, 1]), json!([]), json!([12, 1, 1])] {
+        round_refused(0, "merges/0/at", at, few);
+    }
+    let inside = "R[0].merges[0]: node 1 is in the part, which is to be rigid without it";
+    round_refused(0, "merges/0/at", json!([1, 4, 9]), inside);
+    let outside = "R[0].merges[0]: a neighbour of 12 is not in the part";
+    round_refused(0, "merges/0/at", json!([12, 1, 12345]), outside);
+    let pair = "R[0].merges[0]: no member of `with` holds 12 and 9";
+    round_refused(0, "merges/0/at", json!([12, 1, 9]), pair);
+    let other = "R[0].merges[0]: member 0 holds no pair of the rule";
+    round_refused(0, "merges/0/with", json!([0, 7, 15]), other);
+    let evidence = json!({"merges": [], "upper": null, "lower": null});
+    round_refused(
+        0,
+        "merges/0/solutions",
+        evidence,
+        "R[0].merges[0]: evidence for a rule",
+    );
+    round_refused(
+        0,
+        "merges/0/rule",
+        json!("part"),
+        "R[0].merges[0]: `part` is no rule for 3 nodes",
+    );
+    // Rounds in another order, none of them, and one that is missing.
+    let rounds = value_at("rounds", "/solutions/rounds");
+    let order = |places: &[usize]| -> Value { places.iter().map(|&k| rounds[k].clone()).collect() };
+    for (places, wanted) in [
+        (&[1, 0, 2][..], none(0, 13)),
+        (&[0, 2, 1], none(1, 11)),
+        (&[], "solutions: `rounds` without a round".into()),
+    ] {
+        let wanted = wanted.replace("R[", "solutions.rounds[");
+        refused("rounds", &[("/solutions/rounds", order(places))], &wanted);
+    }
+    let removed = &rounds[0]["merges"][0];
+    let reason = reason(&changed("rounds", &[("M/0", removed.clone())]));
+    assert!(
+        reason.starts_with("solutions.merges[0]: 7 is no member"),
+        "{reason}"
+    );
+    refused(
+        "rounds",
+        &[("M/0/rule", json!("removed"))],
+        "M[0]: `removed` is no rule for 3 nodes",
+    );
+    for (name, place) in [("part", "N"), ("product", "P/0/solutions")] {
+        let mut value = text_of(name);
+        at(&mut value, place)["rounds"] = json!([]);
+        let reason = self::reason(&value);
+        assert!(
+            reason.ends_with(": rounds inside of `solutions`"),
+            "{reason}"
+        );
+    }
+}
+
+#[test]
+fn one_solution_is_finitely_many() {
+    let mut value = text_of("rounds");
+    at(&mut value, "M").as_array_mut().unwrap().pop();
+    assert_eq!(
+        reason(&value),
+        "solutions: `one-solution` where the merges leave several members"
+    );
+    for member in ["", "/claim"] {
+        let object = value.pointer_mut(member).unwrap().as_object_mut().unwrap();
+        object.remove("solutions").unwrap();
+    }
+    assert_eq!(
+        reason(&value),
+        "`one-solution` in a piece, and no `solutions`"
+    );
+    // In another model, and in one of two pieces.
+    let wanted = "pieces[0].evidence[0] (one-solution): not a piece that is the whole graph";
+    let graph = Graph::new(5, [(0, 1), (0, 3), (1, 2), (2, 3), (3, 4)]).unwrap();
+    let mut value = named("certificates/square");
+    value["pieces"][0]["evidence"] = json!([{"kind": "one-solution"}]);
+    value["model"] = json!("calibrated");
+    let of_model = reason(&value);
+    assert!(of_model.starts_with(wanted), "{of_model}");
+    let sha256: Vec<String> = graph.sha256().iter().map(|x| format!("{x:02x}")).collect();
+    value["model"] = json!("projective");
+    value["graph"] =
+        json!({"name": "", "nodes": 5, "edges": 5, "sha256": sha256.concat(), "graph6": null});
+    value["rigid"]["edges"] = json!([[3, 4]]);
+    let of_piece = check(value.to_string().as_bytes(), Some(&graph)).unwrap_err();
+    assert!(of_piece.to_string().starts_with(wanted), "{of_piece}");
+    let more = json!({"kind": "one-solution", "rank": 128});
+    let wanted = "unknown field";
+    let mut value = text_of("rounds");
+    *at(&mut value, "/pieces/0/evidence/0") = more;
+    let error = check(value.to_string().as_bytes(), None)
+        .unwrap_err()
+        .to_string();
+    assert!(
+        error.contains(wanted) || error.contains("`rank`"),
+        "{error}"
+    );
 }

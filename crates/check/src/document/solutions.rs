@@ -1,13 +1,15 @@
 //! The text of section 12 as typed values.
 
+use super::Evidence;
 use crate::json::{Big, Optional, Value, kinds, objects};
 use serde::de::Deserializer;
 
 objects! {
     Solutions {
         merges: Vec<Merge>, upper: Option<Upper>, lower: Option<Lower>,
-        product: Optional<Vec<Factor>>,
+        product: Optional<Vec<Factor>>, rounds: Optional<Vec<Round>>,
     }
+    Round { sets: Vec<Vec<u32>>, evidence: Vec<Evidence>, merges: Vec<Merge> }
     Factor { with: Vec<usize>, solutions: Box<Solutions>, rigid: Option<Rigid> }
     Rigid { chart: Chart, centres: Centres }
     Merge {

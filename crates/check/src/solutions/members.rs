@@ -1,4 +1,4 @@
-//! Members, and their merges: conditions (S1) to (S3) of section 12.
+//! Members, and their merges: conditions (S1) to (S3) and (U4) of section 12.
 
 use super::check_part;
 use crate::document::solutions::Merge;
@@ -29,8 +29,13 @@ impl Members {
             .collect()
     }
 
-    /// Makes one member of several.
-    pub(super) fn merge(&mut self, merge: &Merge, meter: &Meter) -> Checked<()> {
+    /// Makes one member of several; `part` has the nodes of the part of the round, in a round.
+    pub(super) fn merge(
+        &mut self,
+        merge: &Merge,
+        part: Option<&Nodes>,
+        meter: &Meter,
+    ) -> Checked<()> {
         ensure!(
             merge.with.len() >= 2 && merge.with.is_sorted_by(|a, b| a < b),
             "`with` is not an increasing list of two members or more"
@@ -39,10 +44,10 @@ impl Members {
         let taken = taken.collect::<Checked<Vec<Nodes>>>()?;
         let size: usize = taken.iter().map(Nodes::len).sum();
         meter.charge(SPARSE * (size + merge.with.len() * merge.at.len()) as u64)?;
-        if merge.rule == "part" {
-            check_parted(merge, &taken, meter)?;
-        } else {
-            check_rule(merge, &taken)?;
+        match (merge.rule.as_str(), part) {
+            ("part", None) => check_parted(merge, &taken, meter)?,
+            ("removed", Some(part)) => check_removed(merge, &taken, part)?,
+            _ => check_rule(merge, &taken)?,
         }
         self.0.push(Some(taken.into_iter().flatten().collect()));
         Ok(())
@@ -51,6 +56,11 @@ impl Members {
     /// The nodes of a member that is left.
     pub(super) fn get(&self, number: usize) -> Option<&Nodes> {
         self.0.get(number)?.as_ref()
+    }
+
+    /// The members that are left.
+    pub(super) fn all(&self) -> impl Iterator<Item = &Nodes> {
+        self.0.iter().flatten()
     }
 
     /// The numbers of the members that are left.
@@ -75,14 +85,26 @@ fn shared(members: impl Iterator<Item = Vec<u32>>) -> Vec<Nodes> {
     members.into_iter().map(shared).collect()
 }
 
-/// (S2): two nodes that members share (theory, Theorem 4.1, rule 2), three corners (rule 3), or the
-/// biclique K_{2,3} (Theorem 10.3).
+/// (S2): two nodes that members share (theory, Theorem 4.1, rule 2), three corners (rule 3), the
+/// biclique K_{2,3} (Theorem 10.3), a tripod (Theorem 18.7), or a link (Theorem 18.8).
 fn check_rule(merge: &Merge, taken: &[Nodes]) -> Checked<()> {
     let pairs: Vec<[u32; 2]> = match (merge.rule.as_str(), merge.at.as_slice()) {
         ("shared", &[a, b]) => vec![[a, b]],
         ("triangle", &[a, b, c]) => vec![[a, b], [a, c], [b, c]],
         ("biclique", &[a, b, ref others @ ..]) if others.len() == 3 => {
             others.iter().flat_map(|&v| [[a, v], [b, v]]).collect()
+        }
+        ("tripod", &[a, b, c, d, e, f]) => {
+            let is_body = |nodes: &&Nodes| has(nodes, &[a, b, c]) && !has_any(nodes, &[d, e, f]);
+            ensure!(
+                taken.iter().any(|nodes| is_body(&nodes)),
+                "no member of `with` has the first three nodes of `at` and none of the others"
+            );
+            vec![[a, b], [a, c], [d, a], [d, e], [e, b], [d, f], [f, c]]
+        }
+        ("link", &[a, b, c, d, e, f, g]) => {
+            check_link([a, b, c, d, e, f, g], taken)?;
+            vec![[a, b], [d, e], [a, d], [b, e], [c, g], [g, f]]
         }
         (rule, at) => {
             let reason = format!("`{rule}` is no rule for {} nodes", at.len());
@@ -91,17 +113,72 @@ fn check_rule(merge: &Merge, taken: &[Nodes]) -> Checked<()> {
     };
     let different: HashSet<&u32> = merge.at.iter().collect();
     ensure!(
-        different.len() == merge.at.len(),
+        different.len() == merge.at.len() || merge.rule == "link",
         "the nodes of `at` are not different"
     );
+    check_pairs(merge, &pairs, taken)
+}
+
+fn has(nodes: &Nodes, all: &[u32]) -> bool {
+    all.iter().all(|node| nodes.contains(node))
+}
+
+fn has_any(nodes: &Nodes, some: &[u32]) -> bool {
+    some.iter().any(|node| nodes.contains(node))
+}
+
+/// (S2), a link: which of its nodes may be equal, and the two members that it joins.
+fn check_link([a, b, c, d, e, f, g]: [u32; 7], taken: &[Nodes]) -> Checked<()> {
+    let different: HashSet<u32> = [a, b, d, e, g].into();
+    ensure!(
+        different.len() == 5,
+        "two pairs of the link have a node in common"
+    );
+    ensure!(
+        ![d, e, g].contains(&c) && ![a, b, c, g].contains(&f),
+        "an end of the path of the link is where none can be"
+    );
+    ensure!(
+        (c, f) != (a, d) && (c, f) != (b, e),
+        "the plane of {c}, {g} and {f} holds a pair of the link"
+    );
+    let ends = |all: [u32; 3]| taken.iter().filter(move |nodes| has(nodes, &all));
+    let are_apart = |first: &Nodes, second: &Nodes| {
+        first.is_disjoint(second) && !first.contains(&g) && !second.contains(&g)
+    };
+    ensure!(
+        ends([a, b, c]).any(|first| ends([d, e, f]).any(|second| are_apart(first, second))),
+        "the link does not join two members without a node in common, nor with {g}"
+    );
+    Ok(())
+}
+
+/// (U4): a node outside of the part of the round, and nodes of it (theory, Theorems 18.3 and 18.6).
+fn check_removed(merge: &Merge, taken: &[Nodes], part: &Nodes) -> Checked<()> {
+    let (v, ends) = merge.at.split_first().unwrap_or((&0, &[]));
+    let different: HashSet<&u32> = merge.at.iter().collect();
+    ensure!(
+        ends.len() >= 2 && different.len() == merge.at.len(),
+        "`at` has less than three nodes, or one twice"
+    );
+    ensure!(
+        !part.contains(v),
+        "node {v} is in the part, which is to be rigid without it"
+    );
+    ensure!(has(part, ends), "a neighbour of {v} is not in the part");
+    let pairs: Vec<[u32; 2]> = ends.iter().map(|&end| [*v, end]).collect();
+    check_pairs(merge, &pairs, taken)
+}
+
+/// (S2): each pair lies in a member, and each member holds a pair.
+fn check_pairs(merge: &Merge, pairs: &[[u32; 2]], taken: &[Nodes]) -> Checked<()> {
     ensure!(
         merge.solutions.is_none(),
         "evidence for a rule that needs none"
     );
-    let holds = |nodes: &Nodes, pair: &[u32; 2]| pair.iter().all(|node| nodes.contains(node));
-    for pair in &pairs {
+    for pair in pairs {
         ensure!(
-            taken.iter().any(|nodes| holds(nodes, pair)),
+            taken.iter().any(|nodes| has(nodes, pair)),
             "no member of `with` holds {} and {}",
             pair[0],
             pair[1]
@@ -109,7 +186,7 @@ fn check_rule(merge: &Merge, taken: &[Nodes]) -> Checked<()> {
     }
     for (nodes, number) in taken.iter().zip(&merge.with) {
         ensure!(
-            pairs.iter().any(|pair| holds(nodes, pair)),
+            pairs.iter().any(|pair| has(nodes, pair)),
             "member {number} holds no pair of the rule"
         );
     }

@@ -6,6 +6,7 @@
 //! make unknowns known (`linear`; `support`, of `minors` and their `zeros`) and from the points that
 //! solutions are near to (`points`, less those `outside` and `spurious`), a lower one from simple points (`simple`) of a tight core or with `relations`.
 //! What hangs together in a few nodes only is bounded apart, and numbers multiply (`product`).
+//! Before all merges come `rounds`, which take nodes away.
 //! `dense` has the linear algebra; the text is `document::solutions`.
 
 mod chart;
@@ -17,6 +18,7 @@ mod outside;
 mod points;
 mod product;
 mod relations;
+mod rounds;
 mod simple;
 mod spurious;
 mod support;
@@ -85,8 +87,19 @@ pub(crate) fn check(
         .iter()
         .map(|&member| structure.nodes_of(member).to_vec());
     let nodes: Vec<Vec<u32>> = nodes.collect();
-    let meter = structure.setting.meter;
-    bounds(evidence, Members::new(nodes), meter, Of::Graph)
+    let (setting, mut members) = (structure.setting, Members::new(nodes));
+    for (k, round) in evidence.rounds.0.iter().flatten().enumerate() {
+        let checked = rounds::check(round, &mut members, setting);
+        checked.within(|| format!("rounds[{k}]"))?;
+    }
+    let is_empty = |rounds: &Vec<_>| rounds.is_empty();
+    ensure!(
+        !evidence.rounds.0.as_ref().is_some_and(is_empty),
+        "`rounds` without a round"
+    );
+    let alone = pieces.iter().any(|piece| piece.by_solutions);
+    let of = if alone { Of::Alone } else { Of::Graph };
+    bounds(evidence, members, setting.meter, of)
 }
 
 /// What the evidence is about.
@@ -94,6 +107,8 @@ pub(crate) fn check(
 enum Of {
     /// The graph, which is known to be finite solvable.
     Graph,
+    /// The graph, which is so because the merges leave one member.
+    Alone,
     /// A part, of which that is to be shown.
     Part,
     /// A factor of a graph, of which that is known as well; its number may stay open.
@@ -103,6 +118,10 @@ enum Of {
 /// What the evidence about some members gives.
 fn bounds(evidence: &Solutions, mut members: Members, meter: &Meter, of: Of) -> Checked<Count> {
     ensure!(
+        matches!(of, Of::Graph | Of::Alone) || evidence.rounds.0.is_none(),
+        "rounds inside of `solutions`"
+    );
+    ensure!(
         of != Of::Part || evidence.lower.is_none(),
         "a lower bound for a part, of which one solution is to be shown"
     );
@@ -111,9 +130,13 @@ fn bounds(evidence: &Solutions, mut members: Members, meter: &Meter, of: Of) -> 
         "a product for a part, of which one solution is to be shown"
     );
     for (k, merge) in evidence.merges.iter().enumerate() {
-        let merged = members.merge(merge, meter);
+        let merged = members.merge(merge, None, meter);
         merged.within(|| format!("merges[{k}]"))?;
     }
+    ensure!(
+        of != Of::Alone || members.all().count() == 1,
+        "`one-solution` where the merges leave several members"
+    );
     let found = match &evidence.product.0 {
         Some(factors) => {
             ensure!(
