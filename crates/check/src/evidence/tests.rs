@@ -13,6 +13,7 @@ fn a_contradiction_is_rejected() {
         drawn: None,
         classes: None,
         apart: Vec::new(),
+        by_solutions: false,
     };
     let sizes = Sizes {
         nodes: 4,
