@@ -1,6 +1,7 @@
 //! `verify check`: the independent checker on certificates.
 
 mod archive;
+mod bound;
 mod checker;
 mod proved;
 
@@ -203,8 +204,11 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<u8> {
     let from = arguments.intrinsics.clone().map(IntrinsicsFrom::from);
     let mut terms = arguments.terms();
     let mut of_graph = None;
-    let checked = match AnyCertificate::parse(&text) {
-        Ok(certificate) => {
+    let checked = match (AnyCertificate::parse(&text), &arguments.graph) {
+        (Ok(AnyCertificate::Contradictions(certificate)), Some(path)) => {
+            bound::check(&certificate, path, &terms.limits)?
+        }
+        (Ok(certificate), _) => {
             let named = Named {
                 graph: arguments.graph.as_deref(),
                 given,
@@ -216,7 +220,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<u8> {
             let graph = of_graph.as_ref().map(|(graph, _)| graph);
             certificate.check_within(graph, &terms.limits)
         }
-        Err(failure) => Err(failure),
+        (Err(failure), _) => Err(failure),
     };
     let verified = match checked {
         Ok(verified) => verified,

@@ -5,7 +5,7 @@ It shares no code, language, arithmetic, parser or dependency with the first one
 read: a file is a section of that page, each function the list of conditions of one part of it, in the page's order,
 and names the section. Each file builds on those before it: notation (1), graphs (2), document (3), draws (4),
 elimination and matrices (7), cores (6), lower (7), bodies (5), upper (7), pieces (6, 7, 9), claim (8), solutions (12),
-base lines (13), here (14), intrinsics (15), supposed and own_frame (16).
+base lines (13), here (14), intrinsics (15), supposed and own_frame (16). `contradictions` is docs/contradictions.md.
 Whatever is not shown to be right is rejected: an exception that nobody foresaw is a rejection as well.
 """
 
@@ -16,6 +16,8 @@ import sys
 
 from at_cameras import FORMAT as AT_CAMERAS
 from at_cameras import HereCheck
+from contradictions import FORMAT as OF_CONTRADICTIONS
+from contradictions import ContradictionsCheck
 from intrinsics import FORMAT as OF_INTRINSICS
 from intrinsics import IntrinsicsCheck
 from graphs import read_given
@@ -81,10 +83,14 @@ def check(data, **given):
         raise Reject(f"unexpected {type(error).__name__}: {error}") from error
 
 
-def check_kind(document, graph_data=None, core_limit=CORE_LIMIT, given_data=None, work_limit=WORK_LIMIT, **named):
-    """Section 3: the member `format` says which kind it is. `named` are `model`, `classes_hash`, `centres_hash`."""
+def check_kind(document, graph_data=None, core_limit=CORE_LIMIT, given_data=None, work_limit=WORK_LIMIT, database=None, **named):
+    """Section 3: the member `format` says which kind it is. `named` are `model`, `classes_hash`, `centres_hash`.
+    `database` is the path of one of contradictions."""
     expects = any(one is not None for one in (graph_data, given_data, *named.values()))
     form = document.get("format") if type(document) is dict else None
+    if form == OF_CONTRADICTIONS:
+        need(not expects, "it is about motions, and nothing of a graph is expected of it")
+        return ContradictionsCheck(document, database)
     if form == AT_CAMERAS:
         done = HereCheck(document, graph_data, core_limit)
     elif form == OF_INTRINSICS:
@@ -179,7 +185,7 @@ def check_list(paths, **limits):
 def main(arguments=None):
     parser = argparse.ArgumentParser(description="Checks certificates of docs/certificate.md, version 2.")
     parser.add_argument("certificate", nargs="?", help="a certificate, one JSON text (- is standard input)")
-    parser.add_argument("graph", nargs="?", help="the graph that it has to be about")
+    parser.add_argument("graph", nargs="?", help="the graph that it has to be about; of one of contradictions the COLMAP database")
     parser.add_argument("--given", metavar="FILE", help="what it has to suppose besides the graph; with GRAPH, default nothing")
     parser.add_argument("--model", help="the model; with GRAPH or any of these, default projective", choices=("projective", "calibrated", "affine"))
     parser.add_argument("--centres", metavar="HEX", help="the hash of the cameras' centres, for a certificate at given cameras")
@@ -197,9 +203,12 @@ def main(arguments=None):
     try:
         if options.list:
             return check_list(options.list, **limits)
-        graph_data = read_file(options.graph) if options.graph else None
-        given_data = read_file(options.given) if options.given else None
         text = read_file(options.certificate)
+        given_data = read_file(options.given) if options.given else None
+        if f'"{OF_CONTRADICTIONS}"'.encode() in text:
+            graph_data, named["database"] = None, options.graph
+        else:
+            graph_data = read_file(options.graph) if options.graph else None
         need_certificate(options.certificate, text, graph_data)
         done = check(text, graph_data=graph_data, given_data=given_data, **named, **limits)
     except Reject as error:

@@ -17,6 +17,7 @@ import base_lines  # noqa: E402
 import bodies  # noqa: E402
 import check  # noqa: E402
 import claim  # noqa: E402
+import contradictions  # noqa: E402
 import cores  # noqa: E402
 import document  # noqa: E402
 import draws  # noqa: E402
@@ -34,6 +35,7 @@ import supposed  # noqa: E402
 import upper  # noqa: E402
 import test_base_lines  # noqa: E402
 import test_check  # noqa: E402
+import test_contradictions  # noqa: E402
 import test_displacements  # noqa: E402
 import test_at_cameras  # noqa: E402
 import test_intrinsics  # noqa: E402
@@ -43,10 +45,12 @@ import test_pebbles  # noqa: E402
 import test_solutions  # noqa: E402
 
 CHECKER = (
-    base_lines, bodies, check, claim, cores, document, draws, elimination, graphs, here, intrinsics, lower, matrices, notation,
+    base_lines, bodies, check, claim, contradictions, cores, document, draws, elimination, graphs, here, intrinsics, lower, matrices, notation,
     own_frame, pieces, solutions, supposed, upper,
 )
-TESTS = (test_base_lines, test_check, test_displacements, test_at_cameras, test_intrinsics, test_own_frame, test_parts, test_pebbles, test_solutions)
+TESTS = (
+    test_base_lines, test_check, test_contradictions, test_displacements, test_at_cameras, test_intrinsics, test_own_frame, test_parts, test_pebbles, test_solutions,
+)
 REFUSALS = (notation.Reject, notation.Unreadable, notation.TooLarge)
 
 

@@ -73,8 +73,13 @@ impl Expected {
         } else {
             String::new()
         };
+        // Motions are measured between calibrated cameras: there is no other model to be named.
+        let unasked = match verified {
+            AnyVerified::Contradictions(_) => Model::Calibrated,
+            _ => Model::Projective,
+        };
         see(
-            self.model.unwrap_or(Model::Projective) != model,
+            self.model.unwrap_or(unasked) != model,
             format!("the model is {model}{unnamed}"),
         );
         see(
@@ -124,7 +129,7 @@ impl Expected {
                     );
                 }
             }
-            AnyVerified::Generic(_) => {}
+            AnyVerified::Generic(_) | AnyVerified::Contradictions(_) => {}
         }
         for (what, option, found, named) in [
             ("cameras are given", "--centres", centres, &self.centres),

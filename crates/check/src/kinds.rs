@@ -1,9 +1,11 @@
 //! A certificate of whichever kind: its member `format` says which, and it is read once.
 
 use crate::at_cameras::{self, HereCertificate, VerifiedHere};
+use crate::contradictions::{self, ContradictionsCertificate, VerifiedContradictions};
 use crate::document::Model;
 use crate::intrinsics::{self, IntrinsicsCertificate, VerifiedIntrinsics};
 use crate::json::Name;
+use crate::rejection::ensure;
 use crate::{Certificate, Failure, Graph, Limits, Strength, Verified};
 use serde::de::{Deserializer, IgnoredAny, MapAccess, Visitor};
 use std::fmt;
@@ -17,6 +19,8 @@ pub enum AnyCertificate {
     AtCameras(Box<HereCertificate>),
     /// Of intrinsics (section 15).
     Intrinsics(Box<IntrinsicsCertificate>),
+    /// Of contradictions between measured motions (docs/contradictions.md).
+    Contradictions(Box<ContradictionsCertificate>),
 }
 
 impl AnyCertificate {
@@ -30,21 +34,26 @@ impl AnyCertificate {
             Some(intrinsics::FORMAT) => {
                 Self::Intrinsics(Box::new(IntrinsicsCertificate::parse(text)?))
             }
+            Some(contradictions::FORMAT) => {
+                Self::Contradictions(Box::new(ContradictionsCertificate::parse(text)?))
+            }
             _ => Self::Generic(Box::new(Certificate::parse(text)?)),
         })
     }
 
-    fn graph(&self) -> &crate::document::GraphName {
+    /// The graph that it names; one of contradictions is about motions.
+    fn graph(&self) -> Option<&crate::document::GraphName> {
         match self {
-            Self::Generic(certificate) => &certificate.0.graph,
-            Self::AtCameras(certificate) => &certificate.0.graph,
-            Self::Intrinsics(certificate) => &certificate.0.graph,
+            Self::Generic(certificate) => Some(&certificate.0.graph),
+            Self::AtCameras(certificate) => Some(&certificate.0.graph),
+            Self::Intrinsics(certificate) => Some(&certificate.0.graph),
+            Self::Contradictions(_) => None,
         }
     }
 
     /// The hash of the graph that the certificate names, to find that graph in a file of many.
     pub fn graph_sha256(&self) -> &str {
-        &self.graph().sha256
+        self.graph().map_or("", |graph| &graph.sha256)
     }
 
     /// The graph that the certificate holds, if it does, without known parts.
@@ -52,7 +61,7 @@ impl AnyCertificate {
     /// # Errors
     /// If what it holds is no graph.
     pub fn held_graph(&self) -> Result<Option<Graph>, crate::Unreadable> {
-        self.graph().held()
+        self.graph().map_or(Ok(None), |graph| graph.held())
     }
 
     /// The model that it says it is about, if its kind has several.
@@ -60,7 +69,7 @@ impl AnyCertificate {
         match self {
             Self::Generic(certificate) => Some(certificate.0.model),
             Self::AtCameras(certificate) => Some(certificate.0.model),
-            Self::Intrinsics(_) => None,
+            Self::Intrinsics(_) | Self::Contradictions(_) => None,
         }
     }
 
@@ -83,6 +92,13 @@ impl AnyCertificate {
             Self::Intrinsics(certificate) => {
                 AnyVerified::Intrinsics(Box::new(certificate.check_within(graph, None, limits)?))
             }
+            Self::Contradictions(certificate) => {
+                ensure!(
+                    graph.is_none(),
+                    "it is about motions, and not about a graph: `verify check` compares it with a database"
+                );
+                AnyVerified::Contradictions(Box::new(certificate.check_within(None, limits)?))
+            }
         })
     }
 }
@@ -96,6 +112,8 @@ pub enum AnyVerified {
     AtCameras(Box<VerifiedHere>),
     /// Of intrinsics.
     Intrinsics(Box<VerifiedIntrinsics>),
+    /// Of contradictions.
+    Contradictions(Box<VerifiedContradictions>),
 }
 
 impl AnyVerified {
@@ -105,24 +123,28 @@ impl AnyVerified {
             Self::Generic(verified) => verified.verdict.0.to_string(),
             Self::AtCameras(verified) => verified.verdict().into(),
             Self::Intrinsics(verified) => verified.verdict.into(),
+            Self::Contradictions(verified) => verified.verdict().into(),
         }
     }
 
-    /// The model; a certificate of intrinsics is about projective cameras.
+    /// The model; a certificate of intrinsics is about projective cameras, one of contradictions about calibrated ones.
     pub fn model(&self) -> Model {
         match self {
             Self::Generic(verified) => verified.model,
             Self::AtCameras(verified) => verified.model,
             Self::Intrinsics(_) => Model::Projective,
+            Self::Contradictions(_) => Model::Calibrated,
         }
     }
 
-    /// The numbers of nodes and edges of the graph, and its hash.
+    /// The numbers of nodes and edges of the graph, and its hash; of contradictions those of images and pairs, and
+    /// the source's hash.
     pub fn graph(&self) -> ([usize; 2], &str) {
         match self {
             Self::Generic(verified) => ([verified.nodes, verified.edges], &verified.sha256),
             Self::AtCameras(verified) => (verified.size, &verified.sha256),
             Self::Intrinsics(verified) => (verified.size, &verified.sha256),
+            Self::Contradictions(verified) => (verified.size, verified.sha256()),
         }
     }
 
@@ -131,6 +153,7 @@ impl AnyVerified {
         match self {
             Self::AtCameras(_) => vec!["given cameras"],
             Self::Intrinsics(_) => vec!["classes of cameras"],
+            Self::Contradictions(_) => Vec::new(),
             Self::Generic(verified) => [
                 (verified.parts > 0, "known parts"),
                 (verified.displacements.is_some(), "known displacements"),
@@ -158,7 +181,7 @@ impl AnyVerified {
                 ("rank", verified.rank.1),
                 ("number of components", verified.components.1),
             ],
-            Self::Intrinsics(_) => Vec::new(),
+            Self::Intrinsics(_) | Self::Contradictions(_) => Vec::new(),
         };
         all.into_iter()
             .filter(|(_, strength)| *strength != Strength::Proof)
@@ -172,6 +195,7 @@ impl fmt::Display for AnyVerified {
             Self::Generic(verified) => verified.fmt(f),
             Self::AtCameras(verified) => verified.fmt(f),
             Self::Intrinsics(verified) => verified.fmt(f),
+            Self::Contradictions(verified) => verified.fmt(f),
         }
     }
 }

@@ -30,6 +30,7 @@
 //! | the number of solutions | 12 | 10.2 to 10.17, 18.3, 18.6 | `solutions`, a file for each kind |
 //! | what is determined at given cameras | 14 | 16.1 to 16.4 | `here`, all of it |
 //! | what is determined of intrinsics | 15 | 17.3, 17.6 to 17.9 | `intrinsics`, all of it |
+//! | contradictions between pairs, and whose numbers they are | contradictions.md | | `contradictions`, all of it |
 //! | the claim is what follows | 8 | 1.3, 4.2, 4.6, 4.8, 4.12, 13.2, 13.17, 13.20 | `claim` |
 //! | it is what is expected, and supposes what is named | 3 | | `expected` |
 //!
@@ -43,6 +44,7 @@ mod base_lines;
 mod bodies;
 mod cameras;
 mod claim;
+mod contradictions;
 mod core;
 mod counting;
 mod displacements;
@@ -77,6 +79,9 @@ mod vectors;
 pub use at_cameras::{HereCertificate, VerifiedHere};
 pub use base_lines::BaseLines;
 pub use claim::{Strength, Verdict, Verified};
+pub use contradictions::{
+    AtLeast, ContradictionsCertificate, Database, Row, VerifiedContradictions,
+};
 pub use displacements::Displacements;
 pub use document::Model;
 pub use document::Number;

@@ -6,6 +6,7 @@ mod affine;
 mod at_cameras;
 mod base_lines;
 mod conditions;
+mod contradictions;
 mod displacements;
 mod intrinsics;
 mod parts;

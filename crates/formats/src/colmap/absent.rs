@@ -6,6 +6,20 @@ use super::{DatabaseError, FeatureTracks, Groups, Pipeline, TwoViews};
 use crate::error::Place;
 use crate::{NamedGraph, ReadError, ReadOptions, TrackOptions};
 
+/// A row, of which there is none.
+pub type RawRow = (Vec<i64>, Vec<Vec<u8>>);
+
+/// Says that this build reads none.
+///
+/// # Errors
+/// Always.
+pub fn raw_tables(path: &Path) -> Result<[Vec<RawRow>; 4], ReadError> {
+    let error = DatabaseError::NotBuilt.into();
+    Err(Place::Input
+        .fault(error)
+        .in_file(&path.display().to_string()))
+}
+
 /// A database, which this build does not have.
 pub enum Database {}
 

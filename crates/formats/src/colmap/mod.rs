@@ -30,6 +30,8 @@ mod pairs;
 #[cfg(feature = "databases")]
 mod positions;
 #[cfg(feature = "databases")]
+mod raw;
+#[cfg(feature = "databases")]
 mod rigs;
 #[cfg(feature = "databases")]
 mod summary;
@@ -42,12 +44,14 @@ mod two_views;
 mod views;
 
 #[cfg(not(feature = "databases"))]
-pub use absent::{Database, Views};
+pub use absent::{Database, RawRow, Views, raw_tables};
 #[cfg(feature = "databases")]
 pub use database::Database;
 pub use error::DatabaseError;
 pub use estimate::{Estimate, LEAST_ANGLE, estimate};
 pub use facts::{Bin, ConfigCount, DatabaseFacts, Groups, config_name};
+#[cfg(feature = "databases")]
+pub use raw::{RawRow, raw_tables};
 pub use two_views::TwoViews;
 #[cfg(feature = "databases")]
 pub use views::Views;

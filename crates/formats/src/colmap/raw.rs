@@ -1,0 +1,108 @@
+//! What a database holds of cameras, images, keypoints and verified pairs, as it is stored: for whoever
+//! checks numbers himself (docs/contradictions.md, section 5).
+
+use std::fs::File;
+use std::path::Path;
+
+use rusqlite::Connection;
+use rusqlite::types::ValueRef;
+
+use super::DatabaseError;
+use super::open::Opened;
+use super::tables::columns;
+use crate::ReadError;
+use crate::error::Place;
+
+/// A row: its numbers, and its texts and blobs, each in the order of the columns; NULL is an empty blob.
+pub type RawRow = (Vec<i64>, Vec<Vec<u8>>);
+
+/// A table, its columns with numbers, and those with texts and blobs.
+const TABLES: [(&str, &[&str], &[&str]); 4] = [
+    (
+        "cameras",
+        &["camera_id", "model", "prior_focal_length"],
+        &["params"],
+    ),
+    ("images", &["image_id", "camera_id"], &["name"]),
+    ("keypoints", &["image_id", "rows", "cols"], &["data"]),
+    (
+        "two_view_geometries",
+        &["pair_id", "rows", "config"],
+        &["data", "E", "qvec", "tvec"],
+    ),
+];
+
+/// All rows of `cameras`, `images`, `keypoints` and `two_view_geometries`, by their first column. O(size).
+///
+/// # Errors
+/// What is no database of COLMAP, or cannot be read.
+pub fn raw_tables(path: &Path) -> Result<[Vec<RawRow>; 4], ReadError> {
+    let read = || {
+        // SQLite's own words about a file that is not there say less.
+        File::open(path).map_err(|error| DatabaseError::Other(error.to_string()))?;
+        let opened = Opened::new(path)?;
+        let mut tables = [const { Vec::new() }; 4];
+        for (rows, table) in tables.iter_mut().zip(TABLES) {
+            *rows = read_table(&opened.connection, table)?;
+        }
+        opened.finish()?;
+        Ok(tables)
+    };
+    read().map_err(|error: DatabaseError| {
+        let name = path.display().to_string();
+        Place::Input.fault(error.into()).in_file(&name)
+    })
+}
+
+fn read_table(
+    connection: &Connection,
+    (table, numbers, blobs): (&str, &[&str], &[&str]),
+) -> Result<Vec<RawRow>, DatabaseError> {
+    let present = columns(connection, table)?;
+    if present.is_empty() && table == "keypoints" {
+        return Ok(Vec::new());
+    }
+    let mut chosen = Vec::new();
+    for &name in numbers.iter().chain(blobs) {
+        match present.iter().any(|is| is.eq_ignore_ascii_case(name)) {
+            true => chosen.push(name),
+            // Versions before 3.6 have none of these.
+            false if matches!(name, "E" | "qvec" | "tvec") => chosen.push("null"),
+            false => {
+                let missing = format!("its table `{table}` has no column `{name}`");
+                return Err(DatabaseError::NotColmap(missing));
+            }
+        }
+    }
+    let query = format!(
+        "select {} from {table} order by {}",
+        chosen.join(", "),
+        numbers[0]
+    );
+    let mut statement = connection.prepare(&query)?;
+    let mut rows = statement.query([])?;
+    let mut found = Vec::new();
+    while let Some(row) = rows.next()? {
+        let wrong =
+            |name| DatabaseError::Damaged(format!("`{name}` of `{table}` is of another type"));
+        let mut values: RawRow = Default::default();
+        for (k, &name) in numbers.iter().enumerate() {
+            match row.get_ref(k)? {
+                ValueRef::Integer(number) => values.0.push(number),
+                _ => return Err(wrong(name)),
+            }
+        }
+        for (k, &name) in blobs.iter().enumerate() {
+            values
+                .1
+                .push(match (row.get_ref(numbers.len() + k)?, name) {
+                    (ValueRef::Text(text), "name") => text.to_vec(),
+                    (ValueRef::Blob(blob), _) if name != "name" => blob.to_vec(),
+                    (ValueRef::Null, _) if name != "name" => Vec::new(),
+                    _ => return Err(wrong(name)),
+                });
+        }
+        found.push(values);
+    }
+    Ok(found)
+}
