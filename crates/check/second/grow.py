@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Grows certificates where evidence is thinnest: parts inside of parts, and points outside (section 12 of the page).
+"""Grows certificates where evidence is thinnest: parts inside of parts, and points (section 12 of the page).
 
 A graph grows from K_{2,3} and triangles, or from the core of a published certificate: pairs are replaced by smaller graphs
 that have one solution. Nothing is searched for: what is shown of a core stays right where its nodes are called otherwise,
@@ -315,10 +315,10 @@ def mutated(document, rng):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("certificates", nargs="*", help="certificates with points outside, to grow from: .json, .jsonl, .jsonl.gz")
+    parser.add_argument("certificates", nargs="*", help="certificates with points, to grow from: .json, .jsonl, .jsonl.gz")
     parser.add_argument("--checker", help="the first checker, viewcert-check")
     parser.add_argument("--parts", type=int, default=2000, help="how many certificates with nested parts")
-    parser.add_argument("--outside", type=int, default=2000, help="how many with points outside")
+    parser.add_argument("--points", type=int, default=2000, help="how many with points")
     parser.add_argument("--mutants", type=int, default=0, help="how many of each certificate, with claims that are repaired")
     parser.add_argument("--seed", type=int, default=int(time.time()))
     parser.add_argument("--keep", default="findings", help="folder for what there is to report")
@@ -351,21 +351,22 @@ def main():
     bases = []
     for path in options.certificates:
         for _, data in check.certificates_in(path):
-            base = json.loads(data) if b'"outside"' in data else None
-            if base and base["solutions"]["upper"]["points"].get("outside") and grown_from(base, rng):
+            base = json.loads(data) if b'"solutions"' in data else None
+            upper = base and base["solutions"]["upper"]
+            if upper and upper["points"] and not base["solutions"]["merges"] and grown_from(base, rng):
                 bases.append(base)
-    print(f"{len(bases)} cores with points outside", flush=True)
-    for number in range(options.outside if bases else 0):
+    print(f"{len(bases)} cores with points", flush=True)
+    for number in range(options.points if bases else 0):
         base = rng.choice(bases)
         claim = base["claim"]["solutions"]
         document = grown_from(base, rng)
-        grow(document, f"outside, {document['graph']['nodes']} nodes", claim["at_most"])
+        grow(document, f"points, {document['graph']['nodes']} nodes", claim["at_most"])
         if number % 500 == 499:
             print(f"{time.time() - start:.0f} s: {dict(seen)}", flush=True)
     print(f"{time.time() - start:.0f} s: {dict(seen)}")
     bad = comparison.count["reported"]
     print(f"{bad} findings" if bad else "all that was grown is accepted, and all that is accepted is true")
-    return 1 if bad or options.outside and not bases else 0
+    return 1 if bad or options.points and not bases else 0
 
 
 if __name__ == "__main__":

@@ -834,84 +834,23 @@ def check_support(value, rows, known, where):
     return support.unknowns
 
 
-class Form:
-    """(S17): the form, its exponents A' and L(x), where a vector x is a dict from exponent to residue."""
-
-    def __init__(self, value, support, where):
-        p, tau = support.rows.p, len(support.unknowns)
-        zero = (0,) * tau
-        units = [zero[:f] + (1,) + zero[f + 1 :] for f in range(tau)]
-        self.p, self.meter, self.weights = p, support.meter, {zero: 1, **{unit: 0 for unit in units}}
-        if value is not None:
-            self.weights = {}
-            for k, term in enumerate(a_list(value, f"{where}: form")):
-                self.add_term(term, tau, f"{where}: form: term {k}")
-            there = all(d in self.weights for d in (zero, *units))
-            need(there, f"{where}: form: the zero exponent is missing, or one with a single 1")
-        inside = set(support.exponents)
-        support.meter.charge(SPARSE * tau * len(inside) * len(self.weights))
-        self.places = [a for a in support.exponents if all(added(a, d) in inside for d in self.weights)]
-
-    def add_term(self, value, tau, where):
-        exponent, weight = members(value, "exponent weight", where)
-        d = tuple(an_int(e, f"{where}: exponent", 0, 2) for e in a_list(exponent, f"{where}: exponent"))
-        need(len(d) == tau, f"{where}: the exponent has another length")
-        need(d not in self.weights, f"{where}: the exponent is there already")
-        self.weights[d] = a_residue(weight, self.p, f"{where}: weight")
-
-    def of(self, vector):
-        """L(x), without zeros."""
-        self.meter.charge(SPARSE * len(self.places) * len(self.weights) * len(self.weights).bit_length())
-        found = {}
-        for a in self.places:
-            value = sum(weight * vector[added(a, d)] for d, weight in self.weights.items()) % self.p
-            if value:
-                found[a] = value
-        return found
-
-    def quotients(self, vector, image):
-        """Those of x by L(x), at the first exponent where L(x) is not zero."""
-        a, value = next(iter(image.items()))
-        unit = pow(value, -1, self.p)
-        return tuple(vector[added(a, d)] * unit % self.p for d in self.weights)
-
-
-def added(a, d):
-    return tuple(map(sum, zip(a, d)))
-
-
 def check_points(value, chart, known, where, meter):
-    """(S17) to (S18b): the number of points that count."""
-    names = "centres unknowns bounds absent minors points"
-    optional = [name for name in ("form", "outside", "spurious") if type(value) is dict and name in value]
-    centres, unknowns, bounds, absent, minors, points, *more = members(value, " ".join([names, *optional]), where)
-    more = dict(zip(optional, more))
+    """(S17) and (S18): the number of points."""
+    centres, unknowns, bounds, absent, minors, points = members(value, "centres unknowns bounds absent minors points", where)
     rows = Rows(chart, centres, f"{where}: centres", meter)
-    p = rows.p
     support = Support(unknowns, bounds, absent, minors, rows, known, where)
-    need("form" not in more or type(more["form"]) is list, f"{where}: form is not a list")
-    form = Form(more.get("form"), support, where)
     parsed = []
     for k, point in enumerate(a_list(points, f"{where}: points")):
         values, steps = members(point, "values steps", f"{where}: point {k}")
-        values = [a_residue(w, p, f"{where}: point {k}") for w in a_list(values, f"{where}: point {k}: values")]
+        values = [a_residue(w, rows.p, f"{where}: point {k}") for w in a_list(values, f"{where}: point {k}: values")]
         need(len(values) == len(support.unknowns), f"{where}: point {k}: (S17) another number of values")
         parsed.append((values, a_list(steps, f"{where}: point {k}: steps")))
-    outside = []
-    for k, point in enumerate(a_list(more.get("outside", []), f"{where}: outside")):
-        outside.append(Outside(point, support, f"{where}: outside {k}"))
-    spurious = []
-    for k, point in enumerate(a_list(more.get("spurious", []), f"{where}: spurious")):
-        spurious.append(Spurious(point, support, f"{where}: spurious {k}"))
-    every = [*(values for values, _ in parsed), *(point.listed for point in [*outside, *spurious])]
-    check_kernel(support, form, every, where)
+    check_kernel(support, [tuple(values) for values, _ in parsed], where)
     for k, (values, steps) in enumerate(parsed):
         at = f"{where}: point {k}"
         here = {**known, **dict(zip(support.unknowns, values))}
         check_steps(steps, rows, here, at, "(S18)")
         need(len(here) == len(chart.unknowns), f"{at}: (S18) an unknown is not known after the steps")
-    for point in [*outside, *spurious]:
-        point.check()
     return len(parsed)
 
 
@@ -921,159 +860,30 @@ def check_steps(steps, rows, known, where, condition):
         check_linear(step, rows, known, f"{where}: step {t}")
 
 
-def check_kernel(support, form, points, where):
-    """(S17): the points, those of `outside` as well, span the kernel of the matrix of (S16)."""
+def check_kernel(support, points, where):
+    """(S17): the points span the kernel of the matrix of (S16)."""
     p, matrix = support.rows.p, support.matrix()
-    images, quotients = [], []
-    entries_of_matrix = sum(map(len, matrix))
+    need(distinct(points), f"{where}: (S17) two points are the same")
+    entries_of_matrix, inner = sum(map(len, matrix)), set.intersection(*support.neighbours())
+    images = []
     for values in points:
         support.meter.charge(SPARSE * (len(support.exponents) * (len(values) + 1) + entries_of_matrix))
-        vector = {a: power(values, a, support.bounds, p) for a in support.exponents}
+        vector = {a: power(values, a, p) for a in support.exponents}
         entries = list(vector.values())
         fits = all(sum(v * entries[c] for c, v in row.items()) % p == 0 for row in matrix)
         need(fits, f"{where}: (S17) a minor does not vanish at a point")
-        images.append(form.of(vector))
-        need(images[-1], f"{where}: (S17) the form is zero at a point")
-        quotients.append(form.quotients(vector, images[-1]))
-    need(distinct(quotients), f"{where}: (S17) two points are the same")
-    number = {a: k for k, a in enumerate(form.places)}
-    images = [{number[a]: v for a, v in image.items()} for image in images]
+        images.append({k: vector[a] for k, a in enumerate(support.exponents) if a in inner and vector[a]})
     need(rank_of(images, p, support.meter) == len(points), f"{where}: (S17) the points are not independent")
     free = len(support.exponents) - rank_of(matrix, p, support.meter)
     need(free == len(points), f"{where}: (S17) {len(points)} points, but {free} dimensions")
 
 
-def power(values, exponent, bounds, p):
-    """The product of the powers, with 0^0 = 1; infinity (None) has the value 1 at its largest exponent and 0 else."""
+def power(values, exponent, p):
+    """The product of the powers, with 0^0 = 1."""
     result = 1
-    for value, e, bound in zip(values, exponent, bounds):
-        result = result * (int(e == bound) if value is None else pow(value, e, p)) % p
+    for value, e in zip(values, exponent):
+        result = result * pow(value, e, p) % p
     return result
-
-
-class Outside:
-    """(S18a): a point with a scale that is 0 or infinite (None), which no solution comes near."""
-
-    def __init__(self, value, support, where):
-        values, self.blocks, self.dependent = members(value, "values blocks dependent", where)
-        self.rows, self.where, p = support.rows, where, support.rows.p
-        self.values = []
-        for entry in a_list(values, f"{where}: values"):
-            self.values.append(None if entry is None else a_residue(entry, p, f"{where}: values"))
-        need(len(self.values) == len(self.rows.chart.unknowns), f"{where}: (S18a) another number of values")
-        need(all(self.values[f] == 1 for f in support.known), f"{where}: (S18a) an unknown that is known is not 1")
-        self.listed = [self.values[f] for f in support.unknowns]
-        need(0 in self.listed or None in self.listed, f"{where}: (S18a) none of the listed unknowns is 0 or infinite")
-
-    def scale(self, side):
-        return 1 if side.unknown is None else self.values[side.unknown]
-
-    def check(self):
-        """What is to hold at the point, apart from (S17)."""
-        where, sides = self.where, self.rows.sides
-        self.rows.meter.charge(SPARSE * (len(self.values) + len(sides)))
-        times = [0] * len(self.values)
-        for row, pair in enumerate(sides):
-            for f in self.rows.unknowns_of(row):
-                times[f] += 1
-            scales = [self.scale(side) for side in pair]
-            need(scales not in ([0, 0], [None, None]), f"{where}: (S18a) row {row} has two scales that are 0 or infinite")
-        fits = all(count <= 3 for count, value in zip(times, self.values) if value is None)
-        need(fits, f"{where}: (S18a) an infinite unknown is in more than three rows")
-        used = set()
-        blocks = [self.read_rows(one, used, f"{where}: blocks") for one in a_list(self.blocks, f"{where}: blocks")]
-        dependent = a_list(self.dependent, f"{where}: dependent")
-        dependent = [self.read_rows(one, used, f"{where}: dependent") for one in dependent]
-        ones = all(self.scale(side) == 1 for own in blocks for row in own for side in sides[row])
-        need(ones, f"{where}: (S18a) a row of a block has a scale that is not 1")
-        unknowns = [f for f, value in enumerate(self.values) if value not in (0, 1, None)]
-        matrix = [line for own in dependent for line in self.derivatives(own, unknowns)]
-        square = len(matrix) == len(unknowns)
-        need(square, f"{where}: (S18a) {len(matrix)} equations of {len(unknowns)} unknowns")
-        need(determinant(matrix, self.rows.p, self.rows.meter), f"{where}: (S18a) the derivatives are not invertible")
-        rank = sum(len(self.columns(own)) - 4 for own in blocks)
-        rank += sum(len(own) - 1 for own in dependent) + len(sides) - len(used)
-        need(rank <= self.rows.chart.width - 4, f"{where}: (S18a) the rank may be {rank}, above 3 n' - 4")
-
-    def read_rows(self, value, used, where):
-        own = [an_int(row, where, 0, len(self.rows.sides)) for row in a_list(value, where)]
-        need(own, f"{where}: (S18a) a list is empty")
-        increasing(own, f"{where}: (S18a) a list")
-        need(not used & set(own), f"{where}: (S18a) a row is in two lists")
-        used.update(own)
-        return own
-
-    def kept(self, row):
-        """The sides that are not zero at the point, nor struck out, each with its sign and its scale."""
-        pair = list(zip(self.rows.sides[row], (1, -1)))
-        infinite = [(side, sign, 1) for side, sign in pair if self.scale(side) is None]
-        return infinite or [(side, sign, self.scale(side)) for side, sign in pair if self.scale(side)]
-
-    def columns(self, own):
-        """The columns of the nodes of a list."""
-        return sorted({c for row in own for side, _, _ in self.kept(row) for c in side.entries})
-
-    def derivatives(self, own, unknowns):
-        """The w^T (dR/du_f) y of a list R: a row for each y of a basis."""
-        p, meter, columns = self.rows.p, self.rows.meter, self.columns(own)
-        number = {c: k for k, c in enumerate(columns)}
-        matrix = []
-        for row in own:
-            entries = [item for side, sign, scale in self.kept(row) for item in side.scaled(sign * scale).items()]
-            matrix.append({number[c]: v % p for c, v in entries})
-        relations = left_kernel(matrix, len(columns), p, meter)
-        need(len(relations) == 1, f"{self.where}: (S18a) a dependent list has {len(relations)} relations, not one")
-        lines = []
-        for y in kernel(matrix, len(columns), p, meter):
-            meter.charge(SPARSE * (len(unknowns) + 6 * len(own)))
-            line = dict.fromkeys(unknowns, 0)
-            for row, w in zip(own, relations[0]):
-                for side, sign, _ in self.kept(row):
-                    if side.unknown in line:
-                        line[side.unknown] += sign * w * sum(v * y[number[c]] for c, v in side.entries.items())
-            lines.append([line[f] % p for f in unknowns])
-        return lines
-
-
-class Spurious:
-    """(S18b): a point at which the rank of N(u) is more than 3 n' - 4, so that no solution comes near."""
-
-    def __init__(self, value, support, where):
-        values, steps = members(value, "values steps", where)
-        self.support, self.where, p = support, where, support.rows.p
-        self.steps = a_list(steps, f"{where}: steps")
-        self.listed = []
-        for entry in a_list(values, f"{where}: values"):
-            self.listed.append(None if entry is None else a_residue(entry, p, f"{where}: values"))
-        need(len(self.listed) == len(support.unknowns), f"{where}: (S18b) another number of values")
-
-    def check(self):
-        """What is to hold at the point, apart from (S17)."""
-        support, where = self.support, self.where
-        rows, p, there = support.rows, support.rows.p, set(support.exponents)
-        support.meter.charge(SPARSE * len(there) * (len(self.listed) + 1) ** 2)
-        for k, value in enumerate(self.listed):
-            pairs = [(a, (*a[:k], a[k] + 1, *a[k + 1 :])) for a in there]
-            told = [pair[value is None] for pair in pairs if pair[1] in there]
-            tells = any(power(self.listed, a, support.bounds, p) for a in told)
-            need(tells, f"{where}: (S18b) no exponents tell value {k}")
-        need(not self.steps or None not in self.listed, f"{where}: (S18b) steps beside an infinite value")
-        here = {**support.known, **dict(zip(support.unknowns, self.listed))}
-        check_steps(self.steps, rows, here, where, "(S18b)")
-        support.meter.charge(SPARSE * 6 * len(rows.sides))
-        matrix = []
-        for row, pair in enumerate(rows.sides):
-            if any(f not in here for f in rows.unknowns_of(row)):
-                continue
-            scales = [1 if side.unknown is None else here[side.unknown] for side in pair]
-            if scales in ([0, 0], [None, None]):
-                continue
-            if None in scales:
-                matrix.append({c: v % p for c, v in pair[scales.index(None)].scaled(1).items()})
-            else:
-                matrix.append(rows.at(row, here))
-        rank = rank_of(matrix, p, support.meter)
-        need(rank > rows.chart.width - 4, f"{where}: (S18b) the rank is {rank}, not above 3 n' - 4")
 
 
 # A lower bound -------------------------------------------------------------------------------------------------------
@@ -1081,8 +891,7 @@ class Spurious:
 
 def check_lower(value, core, where, meter):
     """(S19) to (S23): the number of solutions at least."""
-    optional = " relations" * (type(value) is dict and "relations" in value)
-    chart, centres, points, *relations = members(value, "chart centres points" + optional, where)
+    chart, centres, points = members(value, "chart centres points", where)
     chart = Chart(chart, core, f"{where}: chart", meter)
     rows = Rows(chart, centres, f"{where}: centres", meter)
     check_independent(rows, where)
@@ -1093,46 +902,13 @@ def check_lower(value, core, where, meter):
         need(len(point) == len(chart.unknowns), f"{where}: point {k} has another number of residues")
     need(parsed and distinct(parsed), f"{where}: (S23) there is no point, or two are the same")
     families = [check_point(rows, values, f"{where}: point {k}") for k, values in enumerate(parsed)]
-    if relations:
-        lists = a_list(relations[0], f"{where}: relations")
-        need(len(lists) == len(parsed), f"{where}: (S23a) not a list of relations for each point")
-        for k, (values, own) in enumerate(zip(parsed, lists)):
-            check_relations(own, rows, values, f"{where}: relations {k}")
-    else:
-        excess = sum(11 * size - 15 for size in chart.sizes) - (11 * len(chart.all_nodes) - 15)
-        need(excess == 0, f"{where}: (S23) the core is not tight")
+    excess = sum(11 * size - 15 for size in chart.sizes) - (11 * len(chart.all_nodes) - 15)
+    need(excess == 0, f"{where}: (S23) the core is not tight")
     identity = tuple(1 for _ in chart.unknowns)
     if identity not in parsed:
         families.append({node: [[1, 0, 0, -c[0]], [0, 1, 0, -c[1]], [0, 0, 1, -c[2]]] for node, c in rows.centres.items()})
     check_cameras(rows, families, where)
     return len(families)
-
-
-def check_relations(value, rows, values, where):
-    """(S23a) at a point: as many relations as the rank is short of, and as many equations as unknowns."""
-    p, chart, meter = rows.p, rows.chart, rows.meter
-    matrix, width = rows.matrix(values), chart.width
-    lists = a_list(value, where)
-    need(len(lists) == len(matrix) - (width - 4), f"{where}: (S23a) another number of relations")
-    vectors, equations = [], 0
-    for k, one in enumerate(lists):
-        at = f"{where}: {k}"
-        own, hub = members(one, "rows hub", at)
-        own = [an_int(row, f"{at}: rows", 0, len(matrix)) for row in a_list(own, f"{at}: rows")]
-        increasing(own, f"{at}: (S23a) rows")
-        found = left_kernel([matrix[row] for row in own], width, p, meter)
-        need(len(found) == 1, f"{at}: (S23a) the rows have {len(found)} relations, not one")
-        vectors.append({row: w for row, w in zip(own, found[0]) if w})
-        touched = [{c // 3 for side in rows.sides[row] for c in side.entries} for row in own]
-        nodes = set().union(*touched)
-        if hub is not None:
-            need(type(hub) is int and chart.place.get(hub) in nodes, f"{at}: (S23a) the rows have no side at the hub")
-            scaled = [near for row, near in zip(own, touched) if rows.unknowns_of(row)]
-            need(all(chart.place[hub] in near for near in scaled), f"{at}: (S23a) a row with an unknown is not at the hub")
-        equations += 3 * len(nodes) - len(own) + 1 - (hub is not None)
-    need(rank_of(vectors, p, meter) == len(vectors), f"{where}: (S23a) the relations are not independent")
-    square = equations == len(chart.unknowns)
-    need(square, f"{where}: (S23a) {equations} equations in {len(chart.unknowns)} unknowns")
 
 
 def check_independent(rows, where):

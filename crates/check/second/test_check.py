@@ -1468,7 +1468,7 @@ class Comparison(unittest.TestCase):
 
     def test_grown_certificates(self):
         rng = random.Random(4)
-        with open(os.path.join(HERE, "..", "tests", "solutions", "outside.json"), encoding="utf-8") as file:
+        with open(os.path.join(HERE, "..", "tests", "solutions", "two.json"), encoding="utf-8") as file:
             base = json.load(file)
         for document, known in ((grow.nested_parts(rng), 1), (grow.grown_from(base, rng), 2)):
             done = check.check(json.dumps(document).encode())

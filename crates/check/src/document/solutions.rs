@@ -20,23 +20,15 @@ objects! {
     Upper { chart: Chart, centres: Centres, steps: Vec<Step>, points: Option<Points> }
     Lower {
         chart: Chart, centres: Centres, points: Vec<Vec<Big<u64>>>,
-        relations: Optional<Vec<Vec<Relation>>>,
     }
-    Relation { rows: Vec<usize>, hub: Option<u32> }
     Minor {
         rows: Vec<usize>, plus: Vec<usize>, minus: Vec<usize>, cols: Vec<usize>,
         shifts: Optional<Vec<Vec<usize>>>,
     }
     Points {
         centres: Centres, unknowns: Vec<usize>, bounds: Vec<usize>, absent: Vec<Vec<usize>>,
-        minors: Vec<Minor>, points: Vec<Point>, form: Optional<Vec<Term>>,
-        outside: Optional<Vec<Outside>>, spurious: Optional<Vec<Spurious>>,
+        minors: Vec<Minor>, points: Vec<Point>,
     }
-    Term { exponent: Vec<usize>, weight: Big<u64> }
-    Outside {
-        values: Vec<Option<Big<u64>>>, blocks: Vec<Vec<usize>>, dependent: Vec<Vec<usize>>,
-    }
-    Spurious { values: Vec<Option<Big<u64>>>, steps: Vec<Step> }
     Point { values: Vec<Big<u64>>, steps: Vec<Step> }
 }
 

@@ -90,11 +90,6 @@ impl Chart {
         }
     }
 
-    /// The index of a shared node.
-    pub(super) fn place(&self, name: u32) -> Option<usize> {
-        self.names.binary_search(&name).ok()
-    }
-
     /// The unknown of a chain, or of a half-edge by the number behind those of the chains, at a
     /// node, if its scale is not one.
     pub(super) fn scale(&self, member: usize, node: usize) -> Option<usize> {

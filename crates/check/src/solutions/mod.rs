@@ -4,7 +4,7 @@
 //! In: the members of the one piece, and the evidence. They are merged (`members`) until a core with
 //! a few unknown scales is left (`chart`, `system`). Out: bounds. An upper one comes from steps that
 //! make unknowns known (`linear`; `support`, of `minors` and their `zeros`) and from the points that
-//! solutions are near to (`points`, less those `outside` and `spurious`), a lower one from simple points (`simple`) of a tight core or with `relations`.
+//! solutions are near to (`points`), a lower one from simple points (`simple`) of a tight core.
 //! What hangs together in a few nodes only is bounded apart, and numbers multiply (`product`).
 //! Before all merges come `rounds`, which take nodes away.
 //! `dense` has the linear algebra; the text is `document::solutions`.
@@ -14,13 +14,10 @@ mod dense;
 mod linear;
 mod members;
 mod minors;
-mod outside;
 mod points;
 mod product;
-mod relations;
 mod rounds;
 mod simple;
-mod spurious;
 mod support;
 mod system;
 mod zeros;
@@ -208,7 +205,7 @@ fn at_most(upper: &Upper, left: &[Vec<u32>], meter: &Meter, of: Of) -> Checked<u
     Ok(1)
 }
 
-/// A lower bound (theory, Theorems 10.10 and 10.22).
+/// A lower bound (theory, Theorem 10.10).
 fn at_least(lower: &Lower, left: &[Vec<u32>], meter: &Meter) -> Checked<usize> {
     let chart = Chart::new(&lower.chart, left, meter).within(|| "chart".into())?;
     let system = System::new(&chart, &lower.centres, meter).within(|| "centres".into())?;

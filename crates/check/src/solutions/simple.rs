@@ -1,8 +1,7 @@
-//! Simple points, of a tight core or with `relations`: conditions (S19) to (S23) of section 12 (theory,
-//! Lemma 10.9, Theorems 10.10 and 10.22).
+//! Simple points of a tight core: conditions (S19) to (S23) of section 12 (theory, Lemma 10.9, Theorem
+//! 10.10).
 
 use super::dense::{Sparse, columns, dot};
-use super::relations;
 use super::system::{Known, System, cross};
 use crate::algebra::Ring;
 use crate::cameras::{Camera, centre};
@@ -36,29 +35,16 @@ pub(super) fn check_identity(system: &System) -> Checked<()> {
 /// (S23): how many solutions there are at least.
 pub(super) fn check_points(lower: &Lower, system: &System) -> Checked<usize> {
     let points = &lower.points;
-    match &lower.relations.0 {
-        Some(lists) => ensure!(
-            lists.len() == points.len(),
-            "{} lists of relations for {} points",
-            lists.len(),
-            points.len()
-        ),
-        None => {
-            let excess = excess(system);
-            ensure!(
-                excess == 0,
-                "the core is not tight, but has an excess of {excess}"
-            );
-        }
-    }
+    let excess = excess(system);
+    ensure!(
+        excess == 0,
+        "the core is not tight, but has an excess of {excess}"
+    );
     ensure!(!points.is_empty(), "there is no point");
     let mut different = HashSet::new();
     for (k, values) in points.iter().enumerate() {
         let checked = checked_values(values, system).and_then(|values| {
             check_point(&values, system)?;
-            if let Some(lists) = &lower.relations.0 {
-                relations::check(&lists[k], &values, system).within(|| "relations".into())?;
-            }
             Ok(values)
         });
         let values = checked.within(|| format!("points[{k}]"))?;

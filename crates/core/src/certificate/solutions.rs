@@ -8,8 +8,8 @@ use super::objects::{Big, bigs, object, objects, written};
 use crate::decide::{Value, Verdict};
 use crate::geometry::model::Model;
 use crate::solutions::{
-    AtMost, Chart, Factor, Limit, Linear, Lower, Merge, Minor, Number, One, Outside, Part, Place,
-    Relation, Rule, Solutions, Spurious, Upper,
+    AtMost, Chart, Factor, Linear, Lower, Merge, Minor, Number, One, Part, Place, Rule, Solutions,
+    Upper,
 };
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
@@ -75,14 +75,10 @@ written! {
         points: own.points.as_ref().map(|(place, points)| Points(place, points)),
     }
     Lower: |own| {
-        chart: own.place.chart, centres: Centres(&own.place), points: all_bigs(&own.points);
-        optional relations: (!own.relations.is_empty()).then_some(&own.relations)
+        chart: own.place.chart, centres: Centres(&own.place), points: all_bigs(&own.points),
     }
     Centres<'_>: |own| { prime: Big(own.0.prime), values: own.values() }
-    Relation: |own| { rows: own.rows, hub: own.hub }
     Linear: |own| { kind: "linear", freed: own.freed, settled: own.settled }
-    Spurious: |own| { values: own.values, steps: own.settled }
-    Outside: |own| { values: own.values, blocks: own.blocks, dependent: own.dependent }
 }
 
 impl Serialize for One {
@@ -98,16 +94,6 @@ impl Serialize for One {
                 kind: "support", unknowns: unknowns, bounds: bounds, absent: absent,
                 minors: minors,
             }),
-        }
-    }
-}
-
-/// `null` stands for infinity.
-impl Serialize for Limit {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match *self {
-            Self::Finite(value) => Big(value).serialize(serializer),
-            Self::Infinite => serializer.serialize_none(),
         }
     }
 }
@@ -336,12 +322,8 @@ struct Points<'a>(&'a Place, &'a AtMost);
 /// The values of its unknowns, and how others are settled there.
 struct Point<'a>(Vec<Big<u64>>, &'a [Linear]);
 
-/// A monomial and its weight.
-struct Term<'a>(&'a (Vec<usize>, u64));
-
 written! {
     Point<'_>: |own| { values: own.0, steps: own.1 }
-    Term<'_>: |own| { exponent: own.0.0, weight: Big(own.0.1) }
 }
 
 impl Serialize for Points<'_> {
@@ -352,17 +334,9 @@ impl Serialize for Points<'_> {
             let values = found.unknowns.iter().map(|&f| Big(point[f]));
             Point(values.collect(), settled)
         });
-        // Theorem 10.8 is what holds without a form.
-        let one = |(exponent, weight): &(Vec<usize>, u64)| {
-            *weight == u64::from(exponent.iter().all(|&e| e == 0))
-        };
-        let plain = found.form.iter().all(one) && found.outside.is_empty();
         object!(serializer, {
             centres: Centres(place), unknowns: found.unknowns, bounds: found.bounds,
-            absent: found.absent, minors: found.minors, points: points.collect::<Vec<_>>();
-            optional form: (!plain).then(|| found.form.iter().map(Term).collect::<Vec<_>>()),
-            outside: (!plain).then_some(&found.outside),
-            spurious: (!found.spurious.is_empty()).then_some(&found.spurious)
+            absent: found.absent, minors: found.minors, points: points.collect::<Vec<_>>(),
         })
     }
 }

@@ -321,18 +321,6 @@ impl Core {
         Some(rows)
     }
 
-    /// The centres of the nodes that are not eliminated, by number.
-    pub(super) fn left_centres(&self, centres: &[[u64; 3]]) -> Vec<[u64; 3]> {
-        let left = (0..self.number.len()).filter(|&v| self.number[v].is_some());
-        left.map(|v| centres[v]).collect()
-    }
-
-    /// The nodes that are not eliminated, by number, as nodes of the graph.
-    pub(super) fn left_nodes(&self) -> Vec<u32> {
-        let left = (0..self.number.len()).filter(|&v| self.number[v].is_some());
-        left.map(|v| self.nodes[v]).collect()
-    }
-
     /// How many rows each body has; the rows are in the order of the bodies.
     pub(super) fn row_counts(&self) -> impl Iterator<Item = usize> + '_ {
         self.bodies.iter().map(|body| 3 * body.len() - 4)

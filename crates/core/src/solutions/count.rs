@@ -7,7 +7,6 @@ use super::members::{MOST_NODES, Members, Set, bits, nodes_of, shared};
 use super::number::Number;
 use super::points::{NoBound, at_most};
 use super::product;
-use super::relations::relations;
 use super::simple::{self, Point};
 use super::support::MinorSpan;
 use super::system::{System, Values, subsets};
@@ -747,32 +746,19 @@ impl Charted {
         }
     }
 
-    /// What points give: an upper bound, and a lower one if the core is tight or just so many equations
-    /// repeat what others say.
+    /// What points give: an upper bound, and a lower one if the core is tight.
     fn enter(&self, system: &System<'_>, draws: &Draws<'_>, found: AtMost, best: &mut Solutions) {
         let field = &system.field;
         let place = || self.place(draws, system.centres);
-        if system.chains_are_independent() {
-            let mut points = simple_points(system, &found);
+        if self.is_tight && system.chains_are_independent() {
+            let points = simple_points(system, &found);
             let one = field.from_u64(1);
             let is_identity = |point: &Point| point.values.iter().all(|&x| x == one);
-            let mut lists = Vec::new();
-            if !self.is_tight {
-                points.retain(|point| !is_identity(point));
-                (points, lists) = points
-                    .into_iter()
-                    .filter_map(|point| {
-                        let lists = relations(system, &point.values)?;
-                        Some((point, lists))
-                    })
-                    .unzip();
-            }
             let identity = points.iter().any(is_identity);
             let residues = |point: &Point| point.values.iter().map(|&x| field.to_u64(x)).collect();
             best.lower(points.len() + usize::from(!identity), || Lower {
                 place: place(),
                 points: points.iter().map(residues).collect(),
-                relations: lists,
             });
         }
         let most = found.points.len();

@@ -86,7 +86,7 @@ pub struct Upper {
     pub points: Option<(Place, AtMost)>,
 }
 
-/// Evidence for a lower bound: simple points, of a tight core or with relations.
+/// Evidence for a lower bound: simple points of a tight core.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Lower {
     /// Where.
@@ -94,17 +94,6 @@ pub struct Lower {
     /// The values of all unknowns at each point, as least residues; u = 1 counts even if it
     /// is not among them.
     pub points: Vec<Vec<u64>>,
-    /// If the core is not tight, the relations of Theorem 10.22 at each point.
-    pub relations: Vec<Vec<Relation>>,
-}
-
-/// Rows of N(u) with just one relation at a point.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Relation {
-    /// The rows, by number.
-    pub rows: Vec<usize>,
-    /// A node, as a node of the graph, at which each of them that has an unknown has a side.
-    pub hub: Option<u32>,
 }
 
 /// One merge of members into one.
@@ -190,7 +179,7 @@ pub enum Part {
     Minus(usize),
 }
 
-/// The points of Theorems 10.8, 10.13, 10.14 and 10.21, with the other unknowns settled at each.
+/// The points of Theorem 10.8, with the other unknowns settled at each.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AtMost {
     /// The unknowns that are not settled by linear algebra.
@@ -205,43 +194,4 @@ pub struct AtMost {
     pub points: Vec<Vec<u64>>,
     /// How the other unknowns are settled at each point.
     pub settled: Vec<Vec<Linear>>,
-    /// The form of Theorem 10.13: monomials, 1 and the unknowns first, and their weights as least
-    /// residues. It is 1 itself (Theorem 10.8) where no point is infinite.
-    pub form: Vec<(Vec<usize>, u64)>,
-    /// Points on the boundary that no solution comes near; they do not count.
-    pub outside: Vec<Outside>,
-    /// Points at which the rank of N(u) is too large for a solution to be near; they do not count.
-    pub spurious: Vec<Spurious>,
-}
-
-/// A point at which the rows of N(u) whose scales are known have a rank above 3 n' - 4 (Theorem 10.21).
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Spurious {
-    /// The values of the unknowns of the span.
-    pub values: Vec<Limit>,
-    /// How others are settled there; none are where a value is infinite.
-    pub settled: Vec<Linear>,
-}
-
-/// A point on the boundary where N(u) has rank 3 n' - 4 or less, at all centres.
-///
-/// Sets of rows are disjoint. Those in none of them count one each.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Outside {
-    /// The values of all unknowns.
-    pub values: Vec<Limit>,
-    /// Rows with both sides and with scales one: those of a set with k nodes have rank 3 k - 4.
-    pub blocks: Vec<Vec<usize>>,
-    /// Rows of rank one less than their number, for just these values of the unknowns that are
-    /// neither 0, 1 nor infinite.
-    pub dependent: Vec<Vec<usize>>,
-}
-
-/// The value of an unknown on the boundary.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Limit {
-    /// A least residue; at 0 the side with the unknown is struck out.
-    Finite(u64),
-    /// The other side of each row is struck out.
-    Infinite,
 }

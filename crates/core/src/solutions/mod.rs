@@ -4,8 +4,7 @@
 //! few unknown scales (`chart`). Out: bounds for the number of solutions and what they rest
 //! on: scales that are one by linear algebra (`linear`, Theorem 10.6) or by the span of minors
 //! (`support`, Theorem 10.5; `balanced`, Lemma 10.24), points near which all others are (`points`, Theorem 10.8), and
-//! simple points of tight cores (`simple`, Theorem 10.10), or of others where equations repeat what others
-//! say (`relations`, Theorem 10.22). What hangs together in a few nodes only
+//! simple points of tight cores (`simple`, Theorem 10.10). What hangs together in a few nodes only
 //! is counted apart, and numbers multiply (`product`, Corollary 10.17; `number`). Every bound is a
 //! proof; what it rests on is in `evidence`. A second solution can be looked at (`witness`).
 
@@ -18,13 +17,10 @@ mod linear;
 mod members;
 mod minors;
 mod number;
-mod outside;
 mod points;
 mod product;
-mod relations;
 mod roots;
 mod simple;
-mod spurious;
 mod support;
 mod system;
 #[cfg(test)]
@@ -35,8 +31,8 @@ mod zeros;
 pub use count::{Effort, count};
 pub(crate) use count::{Plan, Size, count_in};
 pub use evidence::{
-    AtMost, Chart, Factor, Limit, Linear, Lower, Merge, Minor, One, Outside, Part, Place, Relation,
-    Rule, Scale, Solutions, Spurious, Upper,
+    AtMost, Chart, Factor, Linear, Lower, Merge, Minor, One, Part, Place, Rule, Scale, Solutions,
+    Upper,
 };
 pub use members::MOST_NODES;
 pub(crate) use members::nodes_of;

@@ -1,15 +1,14 @@
 //! All points that solutions can come near, at one assignment of centres (docs/theory.md,
-//! Theorems 10.8, 10.13, 10.14 and 10.21): an upper bound for the number of solutions.
+//! Theorem 10.8): an upper bound for the number of solutions.
 
-use super::evidence::{AtMost, Limit, Spurious};
+use super::evidence::AtMost;
 use super::exponents::Exponents;
 use super::linear::settle;
-use super::outside::{limits, outside};
 use super::roots::{NoVectors, left_eigenvectors, transport};
-use super::spurious::{self, is_spurious, tells_all};
 use super::support::MinorSpan;
-use super::system::{System, Values, subsets};
+use super::system::{System, Values};
 use crate::linalg::prime::PrimeField;
+use std::iter;
 
 /// Why there is no upper bound.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,11 +35,9 @@ pub(super) fn at_most(
         let Some(space) = Space::new(system, span, more) else {
             continue;
         };
-        for infinite in 0..=2.min(span.unknowns.len()) {
-            found = space.points(system, values, span, infinite, draw);
-            if found != Err(NoBound::Short) {
-                return found;
-            }
+        found = space.points(system, values, span, draw);
+        if found != Err(NoBound::Short) {
+            return found;
         }
     }
     found
@@ -51,14 +48,6 @@ struct Space {
     exponents: Exponents,
     absent: Vec<bool>,
     kernel: Vec<Vec<u64>>,
-}
-
-/// A form, and the places of the exponents that are present with all their products with its
-/// monomials.
-struct Form {
-    monomials: Vec<Vec<usize>>,
-    weights: Vec<u64>,
-    inner: Vec<usize>,
 }
 
 impl Space {
@@ -72,58 +61,32 @@ impl Space {
         })
     }
 
-    /// 1 with the unknowns, or a drawn form if some points may have up to so many infinite values:
-    /// products of up to so many unknowns.
-    fn form(&self, field: &PrimeField, infinite: usize, draw: &mut impl FnMut() -> u64) -> Form {
-        let unknowns = self.exponents.bounds.len();
-        let mut monomials = vec![vec![0; unknowns]];
-        for size in 1..=infinite.max(1) {
-            let all: Vec<usize> = (0..unknowns).collect();
-            subsets(&all, size, &mut |chosen| {
-                monomials.push(
-                    (0..unknowns)
-                        .map(|f| usize::from(chosen.contains(&f)))
-                        .collect(),
-                );
-                true
-            });
-        }
-        let mut weights = vec![0; monomials.len()];
-        weights[0] = field.from_u64(1);
-        if infinite > 0 {
-            weights.iter_mut().for_each(|weight| *weight = draw());
-        }
-        let shifts: Vec<usize> = monomials.iter().map(|m| self.exponents.index(m)).collect();
-        let smaller: Vec<usize> = self
-            .exponents
-            .bounds
-            .iter()
-            .map(|bound| bound - 1)
-            .collect();
-        let present = |place: &usize| shifts.iter().all(|shift| !self.absent[place + shift]);
+    /// The places of the exponents that are present with all their products with an unknown.
+    fn inner(&self) -> Vec<usize> {
+        let bounds = &self.exponents.bounds;
+        let smaller: Vec<usize> = bounds.iter().map(|bound| bound - 1).collect();
+        let present = |place: &usize| {
+            let mut next = (0..bounds.len()).map(|f| place + self.exponents.stride(f));
+            !self.absent[*place] && next.all(|next| !self.absent[next])
+        };
         let inner = self.exponents.places(&smaller).into_iter().filter(present);
-        Form {
-            inner: inner.collect(),
-            monomials,
-            weights,
-        }
+        inner.collect()
     }
 
-    /// The points of the space by a form.
+    /// The points of the space, if all are finite.
     fn points(
         &self,
         system: &System<'_>,
         values: &Values,
         span: &MinorSpan,
-        infinite: usize,
         draw: &mut impl FnMut() -> u64,
     ) -> Result<AtMost, NoBound> {
         let field = &system.field;
-        let form = self.form(field, infinite, draw);
-        if self.kernel.len() > form.inner.len() {
+        let inner = self.inner();
+        if self.kernel.len() > inner.len() {
             return Err(NoBound::Short);
         }
-        let multiplications = self.multiplications(field, &form)?;
+        let multiplications = self.multiplications(field, &inner)?;
         let vectors = common_eigenvectors(field, &multiplications, draw)?;
         let mut bound = AtMost {
             unknowns: span.unknowns.clone(),
@@ -136,42 +99,17 @@ impl Space {
                 .collect(),
             points: Vec::new(),
             settled: Vec::new(),
-            form: form
-                .monomials
-                .into_iter()
-                .zip(form.weights.iter().map(|&weight| field.to_u64(weight)))
-                .collect(),
-            outside: Vec::new(),
-            spurious: Vec::new(),
         };
         for combination in vectors {
             let mut vector = vec![0; self.exponents.len()];
             for (&factor, row) in combination.iter().zip(&self.kernel) {
                 field.axpy(&mut vector, factor, row);
             }
-            let homogeneous: Option<Vec<u64>> = multiplications
+            let point: Option<Vec<u64>> = multiplications
                 .iter()
                 .map(|matrix| eigenvalue(field, matrix, &combination))
                 .collect();
-            let homogeneous = homogeneous.ok_or(NoBound::Short)?;
-            if homogeneous[..=span.unknowns.len()].contains(&0) {
-                let (exponents, absent) = (&self.exponents, &self.absent);
-                let beyond = outside(system, values, &span.unknowns, exponents, absent, &vector);
-                if let Some(beyond) = beyond {
-                    bound.outside.push(beyond);
-                    continue;
-                }
-                if homogeneous[0] == 0 {
-                    let limits = self.spurious(system, values, &span.unknowns, &vector);
-                    bound.spurious.push(Spurious {
-                        values: limits.ok_or(NoBound::Short)?,
-                        settled: Vec::new(),
-                    });
-                    continue;
-                }
-            }
-            let point =
-                finite(field, &homogeneous[..=span.unknowns.len()]).ok_or(NoBound::Short)?;
+            let point = point.ok_or(NoBound::Short)?.split_off(1);
             if !self.evaluates(field, &vector, &point) {
                 return Err(NoBound::Short);
             }
@@ -180,14 +118,6 @@ impl Space {
                 values[f] = Some(x);
             }
             let steps = settle(system, &mut values);
-            if is_spurious(system, &spurious::finite(system, &values)) {
-                let value = |&x: &u64| Limit::Finite(field.to_u64(x));
-                bound.spurious.push(Spurious {
-                    values: point.iter().map(value).collect(),
-                    settled: steps,
-                });
-                continue;
-            }
             let all: Option<Vec<u64>> = values.iter().copied().collect();
             let all = all.ok_or(NoBound::Short)?;
             bound
@@ -198,48 +128,22 @@ impl Space {
         Ok(bound)
     }
 
-    /// The point of a vector with infinite values, if the rank is too large there.
-    fn spurious(
-        &self,
-        system: &System<'_>,
-        values: &Values,
-        unknowns: &[usize],
-        vector: &[u64],
-    ) -> Option<Vec<Limit>> {
-        let (exponents, absent) = (&self.exponents, &self.absent);
-        let limits = limits(&system.field, exponents, absent, vector)?;
-        let mut known = spurious::finite(system, values);
-        for (&f, &limit) in unknowns.iter().zip(&limits) {
-            known[f] = Some(limit);
-        }
-        let tells = tells_all(exponents, absent, &limits, vector);
-        (tells && is_spurious(system, &known)).then_some(limits)
-    }
-
-    /// The matrices of multiplication by the monomials of a form, divided by the form.
+    /// The matrices of multiplication by 1 and by the unknowns.
     fn multiplications(
         &self,
         field: &PrimeField,
-        form: &Form,
+        inner: &[usize],
     ) -> Result<Vec<Vec<Vec<u64>>>, NoBound> {
-        let images: Vec<Vec<Vec<u64>>> = form
-            .monomials
-            .iter()
-            .map(|monomial| {
-                let shift = self.exponents.index(monomial);
-                let at = |vector: &Vec<u64>| form.inner.iter().map(|k| vector[k + shift]).collect();
-                self.kernel.iter().map(at).collect()
-            })
-            .collect();
-        let mut value = vec![vec![0; form.inner.len()]; self.kernel.len()];
-        for (image, &weight) in images.iter().zip(&form.weights) {
-            for (sum, row) in value.iter_mut().zip(image) {
-                field.axpy(sum, weight, row);
-            }
-        }
-        // The form has to be injective, and the kernel is no space of points if
+        let image = |shift: usize| -> Vec<Vec<u64>> {
+            let at = |vector: &Vec<u64>| inner.iter().map(|k| vector[k + shift]).collect();
+            self.kernel.iter().map(at).collect()
+        };
+        let value = image(0);
+        // The values have to tell vectors apart, and the kernel is no space of points if
         // multiplication leads out of it.
-        let all = images.iter().map(|image| transport(field, &value, image));
+        let shifts = (0..self.exponents.bounds.len()).map(|f| self.exponents.stride(f));
+        let all = iter::once(0).chain(shifts);
+        let all = all.map(|shift| transport(field, &value, &image(shift)));
         all.collect::<Option<_>>().ok_or(NoBound::Short)
     }
 
@@ -269,13 +173,6 @@ impl Space {
                 .zip(&monomials)
                 .all(|(&x, &y)| field.times(x, monomials[at]) == field.times(vector[at], y))
     }
-}
-
-/// The points as they are, if they are finite.
-fn finite(field: &PrimeField, homogeneous: &[u64]) -> Option<Vec<u64>> {
-    let inverse = field.inverse(homogeneous[0])?;
-    let rest = homogeneous[1..].iter();
-    Some(rest.map(|&x| field.times(x, inverse)).collect())
 }
 
 /// Left eigenvectors of all matrices, which commute.

@@ -1,5 +1,5 @@
 //! Points of a core that are simple: a lower bound for the number of solutions
-//! (docs/theory.md, Lemma 10.9, Theorems 10.10 and 10.22).
+//! (docs/theory.md, Lemma 10.9, Theorem 10.10).
 
 use super::system::System;
 use crate::geometry::camera::centre;

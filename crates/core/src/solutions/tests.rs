@@ -1,12 +1,8 @@
 use super::chart::Core;
 use super::count::{Draws, unique_part};
-use super::evidence::{Limit, One, Part, Rule};
-use super::exponents::Exponents;
+use super::evidence::{One, Part, Rule};
 use super::members::{Members, bits, nodes_of};
-use super::outside::is_outside;
-use super::relations::relations;
 use super::simple;
-use super::spurious::{is_spurious, tells_all};
 use super::support::MinorSpan;
 use super::system::{System, Values};
 use super::{Effort, Number, Solutions, count};
@@ -24,9 +20,6 @@ use crate::watch::{Step, Watch, unwatched};
 
 /// Two solutions each; every node has two neighbours or more and there is no triangle.
 const TWO: [&str; 3] = ["HBQkcP_", "HBjCaOc", "H@ZccPO"];
-
-/// Two solutions each; in some unknowns there is a point on the boundary at all centres.
-const OUTSIDE: [&str; 2] = ["IIU_TaA@_", "IIScLaCA_"];
 
 fn graph(name: &str) -> Graph {
     graph6::decode(name.as_bytes()).unwrap()
@@ -250,7 +243,7 @@ fn lower_and_core<'a>(graph: &Graph, found: &'a Solutions) -> (&'a super::Lower,
 #[test]
 fn explicit_cameras_of_a_second_solution() {
     let field = PrimeField::mersenne61();
-    for name in TWO.into_iter().chain(OUTSIDE) {
+    for name in TWO {
         let graph = graph(name);
         let found = count(&graph, Effort::default(), 1).unwrap();
         assert_eq!(found.exactly(), Some(&2.into()), "{name}");
@@ -400,125 +393,6 @@ fn a_part_with_one_solution_becomes_a_member() {
     expected[0] = Rule::Grown;
     assert_eq!(rules, expected);
     assert!(members.merges[0].grown.is_some());
-}
-
-/// K_{2,3}: its three rows have rank 2 at u = 1 alone. With one of them left out, they say nothing.
-#[test]
-fn spurious_points_do_not_count() {
-    let field = PrimeField::mersenne61();
-    let all: Vec<Vec<u32>> = [[0, 2], [0, 3], [0, 4], [1, 2], [1, 3], [1, 4]]
-        .map(Vec::from)
-        .to_vec();
-    let core = Core::new(&Members::unmerged(&all).unwrap(), 0).unwrap();
-    assert_eq!((core.half_edges.len(), core.unknowns), (3, 2));
-    let at = [[1, 2, 3], [5, 7, 2], [4, 1, 9], [8, 3, 1], [2, 6, 5]];
-    let at: Vec<[u64; 3]> = at.map(|c| c.map(|x| field.from_u64(x))).to_vec();
-    let system = System::new(field, &core, &at).unwrap();
-    let [one, five] = [1, 5].map(|x| Some(Limit::Finite(x)));
-    let (zero, infinite) = (Some(Limit::Finite(0)), Some(Limit::Infinite));
-    for (values, expected) in [
-        ([one, one], false),
-        ([one, five], true),
-        ([zero, one], true),
-        ([infinite, infinite], true),
-        ([five, None], false),
-        ([None, None], false),
-    ] {
-        assert_eq!(is_spurious(&system, &values), expected, "{values:?}");
-    }
-    // The quotient of two entries that are not absent tells each value.
-    let exponents = Exponents { bounds: vec![1, 1] };
-    let tells = |absent: [bool; 4], vector: [u64; 4]| {
-        let limits = [Limit::Finite(5), Limit::Infinite];
-        tells_all(&exponents, &absent, &limits, &vector)
-    };
-    // The vector of (5, infinity) at 1, t, s, st.
-    let vector = [0, 1, 0, 5];
-    assert!(tells([false; 4], vector));
-    assert!(!tells([false, true, false, false], vector));
-    assert!(tells([true, false, false, false], vector));
-    assert!(!tells([true, false, true, false], vector));
-}
-
-/// Points on the boundary are there at other centres as well, with other values of the unknowns
-/// that are neither 0, 1 nor infinite, and just for these.
-#[test]
-fn points_outside_do_not_count() {
-    let field = PrimeField::mersenne61();
-    for name in OUTSIDE {
-        let graph = graph(name);
-        let found = [1, 2].map(|seed| count(&graph, Effort::default(), seed).unwrap());
-        let mut kinds = Vec::new();
-        let mut free = Vec::new();
-        for found in &found {
-            assert_eq!(found.exactly(), Some(&2.into()), "{name}");
-            let (place, points) = found.upper.as_ref().unwrap().points.as_ref().unwrap();
-            assert_eq!(
-                (points.points.len(), points.outside.len()),
-                (2, 1),
-                "{name}"
-            );
-            let cores = (0..6).map(|chart| Core::new(&members(&graph), chart).unwrap());
-            let core = cores.into_iter().find(|core| core.chart() == place.chart);
-            let core = core.unwrap();
-            let at = residues(&field, &place.centres);
-            let system = System::new(field, &core, &at).unwrap();
-            let outside = &points.outside[0];
-            assert!(is_outside(&system, &outside.values));
-            let mut kind = Vec::new();
-            for (f, &value) in outside.values.iter().enumerate() {
-                kind.push(match value {
-                    Limit::Finite(x @ (0 | 1)) => Some(x),
-                    Limit::Infinite => None,
-                    Limit::Finite(x) => {
-                        free.push(x);
-                        let mut changed = outside.values.clone();
-                        changed[f] = Limit::Finite(x - 1);
-                        assert!(!is_outside(&system, &changed), "{name}");
-                        Some(2)
-                    }
-                });
-            }
-            kinds.push((place.chart.clone(), points.unknowns.clone(), kind));
-        }
-        assert_eq!(kinds[0], kinds[1], "{name}");
-        // Each value is another one at the other centres.
-        assert!(!free.is_empty());
-        free.sort_unstable();
-        assert!(free.windows(2).all(|pair| pair[0] != pair[1]), "{name}");
-    }
-}
-
-/// A core of excess 2 with a second solution, by relations: without 8, or without 9, and what hangs there,
-/// its graph is that of theory, Example 5.6, whose rank is 83 and not 84 by the hub 10, or 11.
-#[test]
-fn equations_that_repeat() {
-    let found = count(&graph("K????F@K`yXo"), Effort::default(), 1).unwrap();
-    assert_eq!((found.excess, found.exactly()), (Some(2), Some(&2.into())));
-    let lower = found.lower.as_ref().unwrap();
-    assert_eq!((lower.points.len(), lower.relations.len()), (1, 1));
-    let core = Core::of_chart(&lower.place.chart).unwrap();
-    let names = core.left_nodes();
-    let field = PrimeField::mersenne61();
-    let at = residues(&field, &lower.place.centres);
-    let system = System::new(field, &core, &at).unwrap();
-    for (relation, (hub, without)) in lower.relations[0].iter().zip([(10, 8), (11, 9)]) {
-        assert_eq!(relation.hub, Some(hub));
-        let is_there = |row: &usize| {
-            let mut sides = system.rows[*row].sides.iter();
-            sides.all(|side| names[side.node] != without)
-        };
-        let rows: Vec<usize> = (0..system.rows.len()).filter(is_there).collect();
-        assert_eq!(relation.rows, rows);
-    }
-    // K_{2,3}: one relation between three rows of two nodes and a hub, 3 equations in 2 unknowns.
-    let biclique = Graph::from_edges((2..5).flat_map(|v| [(0, v), (1, v)])).unwrap();
-    let edges: Vec<Vec<u32>> = biclique.edges().iter().map(|&(i, j)| vec![i, j]).collect();
-    let core = Core::new(&Members::unmerged(&edges).unwrap(), 0).unwrap();
-    let at = centres(5, 0);
-    let system = System::new(field, &core, &at).unwrap();
-    let ones = vec![field.from_u64(1); 2];
-    assert_eq!((core.unknowns, relations(&system, &ones)), (2, None));
 }
 
 /// One solution by the minors in all six unknowns; with four of them at a time it stays open.

@@ -1,7 +1,7 @@
 //! A second solution to look at: two families of cameras modulo a prime that have the same
 //! fundamental matrices and are not equivalent.
 //!
-//! In: a graph, and simple points of a core (Theorems 10.10 and 10.22 of docs/theory.md). Out: cameras of all
+//! In: a graph, and simple points of a core (Theorem 10.10 of docs/theory.md). Out: cameras of all
 //! nodes. The shared nodes get theirs from the kernel of N(u), by (10.1); the others follow their
 //! members. Everything is verified by (1.1) before it leaves.
 
@@ -19,7 +19,7 @@ use crate::watch::{Step, unwatched};
 /// Two families of cameras with the same fundamental matrices on all edges, up to factors, of which
 /// none is the other one times one 4 x 4 matrix.
 ///
-/// They are solutions at the cameras of the first family. Theorem 10.10, or 10.22, says that there are as many
+/// They are solutions at the cameras of the first family. Theorem 10.10 says that there are as many
 /// at generic ones; that two are here is no proof of it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Witness {
