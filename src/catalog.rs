@@ -71,7 +71,7 @@ pub(super) fn run(session: &Session, arguments: &Arguments) -> Result<u8> {
     let prime = arguments.prime;
     let field = PrimeField::new(prime).with_context(|| format!("prime {prime}"))?;
     let effort = match arguments.solutions {
-        true => CountSolutions::Quick,
+        true => CountSolutions::Full,
         false => CountSolutions::Off,
     };
     let options = Options::default()
