@@ -122,7 +122,8 @@ class ContradictionsCheck:
     def packing(self, value, where):
         theta, phi, assumed, denominator, cycles, at_least = members(value, "theta phi assumed denominator cycles at_least", where)
         an_int(theta, f"{where}: theta", least=1, below=90)
-        need(phi is None or an_int(phi, f"{where}: phi", least=theta, below=90), f"{where}: phi")
+        if phi is not None:
+            an_int(phi, f"{where}: phi", least=theta, below=90)
         for number in increasing(a_list(assumed, where), f"{where}: assumed"):
             an_int(number, f"{where}: assumed", least=0, below=len(self.pairs))
         an_int(denominator, f"{where}: denominator", least=1)

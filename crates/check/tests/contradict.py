@@ -3,6 +3,8 @@
 
     contradict.py DATABASE              the certificate
     contradict.py --made [--check]      contradictions/: the rows of a database with each kind of pair, and its certificate
+    contradict.py --mutants N --seed S --checker verify [DATABASE ..]
+                                        mutants of that, and of these databases: both checkers agree, and accept what is true
 
 Plain floating point and greedy packings find it. What the checkers accept does not rest on that."""
 
@@ -12,11 +14,14 @@ import os
 import random
 import sqlite3
 import struct
+import subprocess
 import sys
 import tempfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "second"))
 
+import check  # noqa: E402
+from notation import Reject  # noqa: E402
 from contradictions import TABLES, ContradictionsCheck, conj, cross, dot, essential, in_front, times, turn  # noqa: E402
 
 
@@ -399,7 +404,51 @@ def true(document):
     return True
 
 
+def accepted(document, path=None):
+    try:
+        check.check(document, database=path)
+        return True
+    except Reject:
+        return False
+
+
+def agree(count, seed, checker, databases):
+    """Both checkers on mutants, alone and with the database."""
+    draw, numbers = random.Random(seed), {"written": 0, "of the database": 0}
+    with tempfile.TemporaryDirectory() as folder:
+        path, file = os.path.join(folder, "made.db"), os.path.join(folder, "mutants.jsonl")
+        tables, document = made()
+        write_database(path, tables)
+        sources = [(document, path), *((certificate(name), name) for name in databases)]
+        for document, path in sources:
+            mutants = Mutants(document, draw)
+            every = [mutants.next() for _ in range(count // len(sources))]
+            with open(file, "w", encoding="utf-8") as out:
+                out.writelines(json.dumps(mutant) + "\n" for mutant in every)
+            run = subprocess.run([checker, "check", file], capture_output=True, text=True)
+            rejected = {int(line.split(":")[1]) for line in run.stdout.splitlines() if line.startswith("REJECTED")}
+            for number, mutant in enumerate(every, 1):
+                verdict = accepted(mutant)
+                assert verdict == (number not in rejected), (mutant, run.stdout)
+                if not verdict:
+                    continue
+                assert true(mutant), mutant
+                numbers["written"] += 1
+                one = os.path.join(folder, "one.json")
+                with open(one, "w", encoding="utf-8") as out:
+                    json.dump(mutant, out)
+                bound = accepted(mutant, path)
+                run = subprocess.run([checker, "check", one, path], capture_output=True, text=True)
+                assert run.returncode == (0 if bound else 1), (mutant, run)
+                assert not bound or same_motions(mutant, document), mutant
+                numbers["of the database"] += bound
+    print(f"{count} mutants: both checkers accept the same {numbers['written']} about what is written, {numbers['of the database']} of the database, and all are true")
+
+
 def main():
+    if sys.argv[1] == "--mutants":
+        agree(int(sys.argv[2]), int(sys.argv[4]), sys.argv[6], sys.argv[7:])
+        return 0
     if sys.argv[1] != "--made":
         json.dump(certificate(sys.argv[1]), sys.stdout, separators=(",", ":"))
         return 0
