@@ -600,3 +600,90 @@ fn small_files_cost_little() {
         assert_eq!((run.code, &run.out), (0, &short.out), "{}", run.err);
     }
 }
+
+/// The database whose rows the checker's own tests have, and its certificate.
+fn database_of_motions(folder: &Folder) -> [String; 2] {
+    let kept = |name: &str| {
+        let path = root().join("crates/check/tests/contradictions").join(name);
+        fs::read_to_string(path).unwrap()
+    };
+    let certificate = folder.write("motions.json", &kept("certificate.json"));
+    let path = folder.path("motions.db");
+    let database = rusqlite::Connection::open(&path).unwrap();
+    let tables: Value = serde_json::from_str(&kept("rows.json")).unwrap();
+    for (table, columns) in [
+        ("cameras", "camera_id, model, prior_focal_length, params"),
+        ("images", "image_id, camera_id, name"),
+        ("keypoints", "image_id, rows, cols, data"),
+        (
+            "two_view_geometries",
+            "pair_id, rows, config, data, E, qvec, tvec",
+        ),
+    ] {
+        let mut statements = format!("create table {table} ({columns});");
+        for row in tables[table].as_array().unwrap() {
+            let value = |value: &Value| match (value.as_str(), table) {
+                (Some(name), "images") => format!("'{name}'"),
+                (Some(blob), _) => format!("x'{blob}'"),
+                _ => value.to_string(),
+            };
+            let values: Vec<String> = row.as_array().unwrap().iter().map(value).collect();
+            statements += &format!("insert into {table} values ({});", values.join(", "));
+        }
+        database.execute_batch(&statements).unwrap();
+    }
+    [certificate, path]
+}
+
+/// What is written is one thing, and that a database has these numbers another.
+#[test]
+#[ignore = "needs python3"]
+fn contradictions_are_bound_to_a_database() {
+    let folder = Folder::new(&[("square.txt", SQUARE)]);
+    let [certificate, database] = database_of_motions(&folder);
+    all_say(0, &[&certificate]);
+    for checker in CHECKERS {
+        let run = checker(&[&certificate]);
+        let claim =
+            "contradictions: at least 1 of 10 pairs are off by more than 10 degrees (proof), ";
+        assert!(
+            run.out
+                .contains(&format!("{claim}about the numbers written here\n"))
+        );
+        assert!(!run.out.contains("of this database"), "{}", run.out);
+    }
+    for checker in [verify_check, second_checker] {
+        let run = checker(&[&certificate, &database]);
+        assert_eq!(run.code, 0, "{}", run.err);
+        assert!(!run.out.contains("written here"), "{}", run.out);
+        assert_eq!(
+            run.out.matches("of this database").count(),
+            5,
+            "{}",
+            run.out
+        );
+        assert_eq!(checker(&[&certificate, &folder.path("square.txt")]).code, 2);
+        assert_eq!(checker(&[&certificate, &folder.path("absent.db")]).code, 2);
+    }
+    let run = first_checker(&[&certificate, &database]);
+    assert_eq!(run.code, 2);
+    assert!(
+        run.err.contains("this program reads no database"),
+        "{}",
+        run.err
+    );
+    // Another number of one pair, and nothing that a graph would show.
+    let opened = rusqlite::Connection::open(&database).unwrap();
+    let change = "update two_view_geometries set tvec = zeroblob(24) where pair_id = 2147483649";
+    opened.execute_batch(change).unwrap();
+    drop(opened);
+    for checker in [verify_check, second_checker] {
+        assert_eq!(checker(&[&certificate, &database]).code, 1);
+    }
+    let expected = verify_check(&[&certificate, "--expect", "solvable"]);
+    assert!(
+        expected.code == 1 && expected.err.contains("the verdict is contradictions"),
+        "{}",
+        expected.err
+    );
+}

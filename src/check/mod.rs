@@ -33,7 +33,8 @@ pub(super) struct CheckArguments {
     /// `.jsonl.gz`), or a folder of such files; a folder's `manifest.json` says what belongs to it.
     #[arg(value_name = "CERTIFICATE")]
     certificate: PathBuf,
-    /// The graph it is about; not needed if the certificate embeds it.
+    /// The graph it is about; not needed if the certificate embeds it. Of one of contradictions the COLMAP database: its
+    /// numbers have to be those.
     #[arg(value_name = "GRAPH")]
     graph: Option<PathBuf>,
     /// Ask `viewcert-proved` as well, with this explicit proof (`verify GRAPH --proof`), and say which

@@ -201,7 +201,7 @@ impl fmt::Display for AnyVerified {
 }
 
 /// The member `format` of an object, as far as it can be read.
-fn format_of(text: &[u8]) -> Option<String> {
+pub(crate) fn format_of(text: &[u8]) -> Option<String> {
     struct Head<'a>(&'a mut Option<String>);
 
     impl<'de> Visitor<'de> for Head<'_> {

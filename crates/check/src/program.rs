@@ -1,5 +1,6 @@
 //! `viewcert-check CERTIFICATE [GRAPH]`: arguments and files in, what was verified out.
 
+use crate::kinds::format_of;
 use crate::rejection::escaped;
 use crate::{AnyCertificate, Expected, Failure, Graph, Limits, Model, Unreadable, VERDICTS};
 use lexopt::Arg::{Long, Short, Value};
@@ -261,6 +262,15 @@ fn check(arguments: &Arguments) -> Result<u8, Stop> {
         )));
     }
     let certificate = LazyLock::new(|| AnyCertificate::parse(&text));
+    if let (Some((path, _)), Some(crate::contradictions::FORMAT)) =
+        (&file, format_of(&text).as_deref())
+    {
+        return Err(Stop::no_answer(format!(
+            "{}: this program reads no database; `verify check` compares the numbers of this certificate with it; \
+             without the file they are checked as they are written",
+            path.display()
+        )));
+    }
     // Large files are read side by side; whoever needs the certificate waits for it.
     let graph = std::thread::scope(|scope| {
         if file.is_some() {
