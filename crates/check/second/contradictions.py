@@ -86,8 +86,6 @@ def ints(value, count, where):
 class ContradictionsCheck:
     """The check of one certificate, and of its numbers where the path of their database is known."""
 
-    model = "calibrated"
-
     def __init__(self, data, source=None):
         document = parse(data) if isinstance(data, bytes) else data
         names = "format version program database images pairs excluded packings upper"
@@ -234,8 +232,7 @@ class ContradictionsCheck:
         if e is None:
             need(listed, "(B5) a pair by qvec is excluded")
             need(along(q, p, 36), "(B5) q is not qvec")
-            need(t is None or u is not None and dot(t, u) > 0 and along(t, u, 36), "(B5) t is not tvec")
-            return
+            return need(t is None or u and dot(t, u) > 0 and along(t, u, 36), "(B5) t is not tvec")
         need(t is not None, "(B3) a pair by E without t")
         need(along(e, essential(q, t), 40), "(B3) the motion is not that of E")
         back = [-x for x in t]
@@ -309,7 +306,8 @@ class ContradictionsCheck:
             given = f", if {assumed} others are right" if assumed else ""
             found.append(f"contradictions: at least {least} of {count} pairs are off by more than {theta} degrees{directions}{given} (proof), {of}")
         found += [f"rotations: all pairs but {most} agree within {theta} degrees (proof), {of}" for theta, most in self.at_most]
-        return [f"numbers: {len(self.images)} images, {count} pairs, {of}; database {self.database}", *found]
+        named = f"database with SHA-256 {self.database}" if self.database else "no database is named"
+        return [f"numbers: {len(self.images)} images, {count} pairs, {of}; {named}", *found]
 
 
 def read_table(connection, name, columns):

@@ -40,7 +40,7 @@ def copy():
         manifest = file.read()
     workspace = manifest[:manifest.index("\n[package]")]
     with open(os.path.join(COPY, "Cargo.toml"), "w", encoding="utf-8") as file:
-        workspace = re.sub(r"^exclude.*\n", "", workspace, flags=re.M)
+        workspace = re.sub(r"^(exclude|default-members).*\n", "", workspace, flags=re.M)
         file.write(re.sub(r"^members = .*$", 'members = ["crates/check"]', workspace, flags=re.M))
 
 
