@@ -32,6 +32,7 @@ mod question;
 mod self_check;
 mod split;
 mod verify;
+mod watch;
 mod witness;
 
 pub use bounds::Bounds;
@@ -101,6 +102,8 @@ enum Command {
     Overview(overview::OverviewArguments),
     /// Say what to do about an answer: what it hangs on, what to match, what an image needs.
     Advise(advise::AdviseArguments),
+    /// Follow a database while COLMAP matches, and say what joins.
+    Watch(watch::WatchArguments),
     /// Write the components to a folder, as COLMAP takes them.
     Export(export::ExportArguments),
     /// Take a COLMAP model apart where its tracks do not hold it together.
@@ -151,6 +154,7 @@ fn run(session: &Session, arguments: &CommandLine) -> Result<u8> {
     match &arguments.command {
         Some(Command::Overview(arguments)) => overview::run(session, arguments),
         Some(Command::Advise(arguments)) => decisions::run(session, &arguments.plan()?),
+        Some(Command::Watch(arguments)) => watch::run(session, arguments),
         Some(Command::Export(arguments)) => decisions::run(session, &arguments.plan()?),
         Some(Command::Split(arguments)) => split::run(session, arguments),
         Some(Command::Merge(arguments)) => merge::run(session, arguments),

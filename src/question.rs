@@ -38,7 +38,7 @@ pub(super) struct QuestionArguments {
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum ModelName {
+pub(super) enum ModelName {
     /// Edges carry fundamental matrices.
     Projective,
     /// Edges carry essential matrices: known intrinsics.
@@ -47,6 +47,17 @@ enum ModelName {
     Affine,
     /// Unknown focal lengths, everything else known: each pair fixes both, and then as calibrated.
     Focal,
+}
+
+impl ModelName {
+    /// The model in which graphs are decided.
+    pub(super) fn model(self) -> Model {
+        match self {
+            Self::Projective => Model::Projective,
+            Self::Calibrated | Self::Focal => Model::Calibrated,
+            Self::Affine => Model::Affine,
+        }
+    }
 }
 
 impl QuestionArguments {
@@ -70,10 +81,9 @@ impl QuestionArguments {
 
     fn plan_by(&self, graphs: &[PathBuf], tracks: bool) -> Result<Plan> {
         let model = match self.model {
-            Some(ModelName::Calibrated | ModelName::Focal) => Model::Calibrated,
-            Some(ModelName::Affine) => Model::Affine,
+            Some(name) => name.model(),
             None if tracks => Model::Calibrated,
-            Some(ModelName::Projective) | None => Model::Projective,
+            None => Model::Projective,
         };
         let read = match tracks {
             true => self.input.of_tracks(),

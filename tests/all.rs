@@ -55,3 +55,4 @@ mod split_merge;
 mod symptoms;
 mod table;
 mod verify;
+mod watch;

@@ -321,19 +321,19 @@ fn a_read_only_file_system() {
 }
 
 /// A database of a folder of its own, with the tables of COLMAP 3.8 as far as they are read.
-struct Made {
+pub(crate) struct Made {
     folder: tempfile::TempDir,
     connection: Connection,
 }
 
-const TABLES: &str = "
+pub(crate) const TABLES: &str = "
     create table images (image_id integer primary key, name text not null unique);
     create table matches (pair_id integer primary key, rows integer, cols integer, data blob);
     create table two_view_geometries (pair_id integer primary key, rows integer, cols integer,
         data blob, config integer, F blob, E blob, H blob, qvec blob, tvec blob);";
 
 impl Made {
-    fn new(tables: &str, images: &[(i64, &str)]) -> Self {
+    pub(crate) fn new(tables: &str, images: &[(i64, &str)]) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let connection = Connection::open(folder.path().join("database.db")).unwrap();
         connection.execute_batch(tables).unwrap();
@@ -344,16 +344,16 @@ impl Made {
         Self { folder, connection }
     }
 
-    fn path(&self) -> PathBuf {
+    pub(crate) fn path(&self) -> PathBuf {
         self.folder.path().join("database.db")
     }
 
-    fn execute(&self, sql: &str) {
+    pub(crate) fn execute(&self, sql: &str) {
         self.connection.execute_batch(sql).unwrap();
     }
 
     /// A verified pair with a list of matches.
-    fn pair(&self, a: i64, b: i64, matches: &[(u32, u32)], config: i64) {
+    pub(crate) fn pair(&self, a: i64, b: i64, matches: &[(u32, u32)], config: i64) {
         let bytes: Vec<u8> = matches
             .iter()
             .flat_map(|&(k, l)| [k.to_le_bytes(), l.to_le_bytes()])
@@ -379,7 +379,7 @@ impl Made {
 }
 
 /// So many matches of the same features.
-fn same(count: u32) -> Vec<(u32, u32)> {
+pub(crate) fn same(count: u32) -> Vec<(u32, u32)> {
     (0..count).map(|k| (k, k)).collect()
 }
 

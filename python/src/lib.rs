@@ -13,6 +13,7 @@ mod decided;
 mod errors;
 mod files;
 mod graph;
+mod incremental;
 mod matrices;
 mod pickled;
 mod places;
@@ -40,6 +41,8 @@ mod _native {
     use super::files::{Archive, check_all, lists, merge, overview};
     #[pymodule_export]
     use super::graph::{Graph, graph_of_integers, graph_of_nodes, read};
+    #[pymodule_export]
+    use super::incremental::Growing;
     #[pymodule_export]
     use super::matrices::rigidity_matrix;
     #[pymodule_export]

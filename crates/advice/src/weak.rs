@@ -17,7 +17,7 @@ use halves::Sorted;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use viewcert::contract::{Contraction, Merge, Part as Joined, Seed};
-use viewcert::decide::{Options, Value, VerdictError, decide};
+use viewcert::decide::{Options, VerdictError};
 use viewcert::graph::{Adjacency, Lists};
 use viewcert::watch::Step;
 use viewcert::{Graph, Model, Strength};
@@ -296,10 +296,10 @@ pub(crate) fn images_of(
         weak.extend(sorted.falls.iter().map(of));
         open = sorted.open;
     }
-    let decided = falling_apart(graph, open, |rest| {
-        let verdict = decide(rest, options)?;
-        Ok((verdict.value == Value::NotFiniteSolvable).then_some(verdict.value_claim().strength))
-    })?;
+    let mut decided = Vec::new();
+    for set in independent(graph, open) {
+        decided.extend(decisions::weak_images(graph, set, options)?);
+    }
     weak.extend(
         decided
             .into_iter()
@@ -330,36 +330,6 @@ fn is_one_body(contraction: &Contraction, nodes: usize) -> bool {
     contraction.bodies[body as usize].nodes.len() == nodes
 }
 
-/// Those of some nodes, given and returned increasing, without which a graph does not pass a test,
-/// with the strength of that; the test says `None` if a graph holds together.
-///
-/// Nodes that are pairwise no edges are left out together: if the rest holds together, each of them
-/// is seen from two nodes of it, and so the graph without any one of them holds
-/// together as well (docs/theory.md, Theorem 4.1, rule 3). Every node must have two neighbours.
-pub(crate) fn falling_apart(
-    graph: &Graph,
-    nodes: Vec<u32>,
-    test: impl Fn(&Graph) -> Result<Option<Strength>, VerdictError>,
-) -> Result<Vec<(u32, Strength)>, VerdictError> {
-    let mut found = Vec::new();
-    let mut sets = independent(graph, nodes);
-    while let Some(set) = sets.pop() {
-        if set.is_empty() {
-            continue;
-        }
-        if let Some(strength) = test(&without_nodes(graph, &set))? {
-            if let [v] = set[..] {
-                found.push((v, strength));
-            } else {
-                let half = set.len() / 2;
-                sets.extend([set[..half].to_vec(), set[half..].to_vec()]);
-            }
-        }
-    }
-    found.sort_unstable_by_key(|&(v, _)| v);
-    Ok(found)
-}
-
 /// Some nodes, given increasing, in sets without an edge in them, by greedy colouring.
 fn independent(graph: &Graph, nodes: Vec<u32>) -> Vec<Vec<u32>> {
     let neighbours = Adjacency::new(graph);
@@ -376,15 +346,6 @@ fn independent(graph: &Graph, nodes: Vec<u32>) -> Vec<Vec<u32>> {
         sets[free].push(v);
     }
     sets
-}
-
-/// A graph without some nodes, given increasing, renumbered.
-pub(crate) fn without_nodes(graph: &Graph, gone: &[u32]) -> Graph {
-    let stays = |v: &u32| gone.binary_search(v).is_err();
-    let nodes: Vec<u32> = (0..graph.nodes() as u32).filter(|v| stays(v)).collect();
-    let edges = graph.edges().iter().copied();
-    let edges: Vec<Pair> = edges.filter(|(i, j)| stays(i) && stays(j)).collect();
-    Alone::new(&nodes, &edges).graph
 }
 
 #[cfg(test)]

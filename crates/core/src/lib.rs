@@ -36,7 +36,7 @@
 //! components are found and upper bounds are counted ([`mod@decide`]), or counting alone decides
 //! ([`sparsity`]); the verdict leaves with its
 //! evidence as a [`certificate`]. What is determined at cameras that are given is another question
-//! ([`here`](mod@here)). Nothing here reads a file, prints, or computes in floating point.
+//! ([`at_cameras`](mod@at_cameras)); pairs that arrive one by one are [`incremental`]. Nothing here reads a file, prints, or computes in floating point.
 
 pub mod at_cameras;
 pub mod certificate;
@@ -44,6 +44,7 @@ pub mod contract;
 pub mod decide;
 pub mod geometry;
 pub mod graph;
+pub mod incremental;
 pub mod intrinsics;
 pub mod linalg;
 mod named;

@@ -9,6 +9,7 @@ pub mod audit;
 mod bottlenecks;
 mod condition;
 pub mod database;
+pub mod growth;
 pub mod intrinsics;
 pub mod json;
 pub mod label;

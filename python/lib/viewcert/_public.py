@@ -19,6 +19,7 @@ from ._errors import Error, InputError, NoteWarning, Rejected, TooLarge, Undecid
 from ._errors import answering as _answering
 from ._files import Archive, ListedImages, Lists, Merge, NotVerified, Overview, check_all, lists, merge, overview
 from ._graph import Graph, from_database, read, tracks_from_database, tracks_from_reconstruction
+from ._incremental import Growth, Verifier
 from ._intrinsics import Intrinsics, Prior, Priors, VerifiedIntrinsics, check_intrinsics, intrinsics
 from ._limits import limits
 from ._matrices import ExactMatrix, rigidity_matrix
@@ -30,10 +31,10 @@ from ._witness import Witness, fundamental_matrix, witness
 
 __all__ = [
     "Archive", "AtCameras", "Audit", "BaseLines", "Break", "Change", "Entry", "Error", "ExactMatrix", "Explanation",
-    "Export", "FloatRuling", "Graph", "Implied", "InputError", "Intrinsics", "Joint", "ListedImages", "Lists",
+    "Export", "FloatRuling", "Graph", "Growth", "Implied", "InputError", "Intrinsics", "Joint", "ListedImages", "Lists",
     "Mended", "Models", "NotVerified", "NoteWarning", "Outside", "Overview", "Planar", "Prior", "Priors",
     "Rejected", "Ruling", "SingularValue", "Solutions", "Special", "Suggestion", "TooLarge", "Undecided", "Unused",
-    "Verdict", "Verified", "VerifiedAtCameras", "VerifiedIntrinsics", "Weak", "Witness", "__version__",
+    "Verdict", "Verified", "VerifiedAtCameras", "VerifiedIntrinsics", "Verifier", "Weak", "Witness", "__version__",
     "at_cameras", "audit", "audit_claims", "catalog", "check", "check_all", "check_at_cameras", "check_intrinsics",
     "examples", "explain", "export", "from_database", "from_label", "fundamental_matrix", "implied", "intrinsics",
     "label", "limits", "lists", "mend", "merge", "models", "overview", "read", "redundant", "rigidity_matrix",

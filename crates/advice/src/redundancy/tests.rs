@@ -3,9 +3,9 @@
 
 use super::*;
 use crate::condensation::without;
+use crate::parts::Alone;
 use crate::parts::Parts;
 use crate::tests::{clusters, graphs, options, sequences, together, tracks, verdict};
-use crate::weak::without_nodes;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -300,4 +300,13 @@ fn sequences_are_near_linear() {
             assert_eq!(redundant(&graph, &parts, lost, &of).unwrap(), []);
         }
     }
+}
+
+/// A graph without some nodes, given increasing, renumbered.
+fn without_nodes(graph: &Graph, gone: &[u32]) -> Graph {
+    let stays = |v: &u32| gone.binary_search(v).is_err();
+    let nodes: Vec<u32> = (0..graph.nodes() as u32).filter(|v| stays(v)).collect();
+    let edges = graph.edges().iter().copied();
+    let edges: Vec<(u32, u32)> = edges.filter(|(i, j)| stays(i) && stays(j)).collect();
+    Alone::new(&nodes, &edges).graph
 }

@@ -1,16 +1,16 @@
 //! What contraction and counting leave open, by decisions.
 //!
-//! In: a condensation and pairs of it. Out: which of them are weak. The pairs are left out together,
-//! and the components of what is left are condensed in their turn. One pair is decided by itself:
+//! In: a condensation and pairs of it, or a graph and images. Out: which of them are weak. They are left out
+//! together, and the components of what is left are condensed in their turn. One pair is decided by itself:
 //! its count may tell of others. Then each half of the rest is looked at in the smaller graph. The
 //! halves lie apart: pairs are taken in the order in which a search comes to them, so that where
 //! separators are small the graph without a half is a few components.
 
 use super::{Pair, Why};
 use crate::condensation::{Condensation, terminals, without};
-use crate::parts::Parts;
+use crate::parts::{Alone, Parts};
 use std::collections::VecDeque;
-use viewcert::decide::{Options, VerdictError, decide};
+use viewcert::decide::{Options, Value, VerdictError, decide};
 use viewcert::graph::Adjacency;
 use viewcert::{Graph, Strength, Verdict};
 
@@ -47,6 +47,80 @@ pub(super) fn weak(
 struct Open {
     here: Pair,
     name: Pair,
+}
+
+/// An image of which nothing is known yet: in the graph at hand, and as it is called.
+type OpenImage = (u32, u32);
+
+/// Which of some images are weak, with the strength of that. No two of them are a pair, and each has two
+/// neighbours at least.
+///
+/// If the rest holds together without all of them, each of them is seen from two nodes of it, so none
+/// is weak (docs/theory.md, Theorem 4.1, rule 3). Else each half is looked at where the components of the rest are
+/// condensed (Theorem 4.4), so graphs shrink with the number of images that they are about.
+///
+/// # Errors
+/// Those of [`decide`].
+pub(super) fn weak_images(
+    graph: &Graph,
+    images: Vec<u32>,
+    options: &Options,
+) -> Result<Vec<(u32, Strength)>, VerdictError> {
+    let place = by_distance(graph);
+    let mut open: Vec<OpenImage> = images.into_iter().map(|image| (image, image)).collect();
+    open.sort_by_key(|&(here, _)| place[here as usize]);
+    let mut found = Vec::new();
+    search_images(graph, &open, options, &mut found)?;
+    found.sort_unstable_by_key(|&(image, _)| image);
+    Ok(found)
+}
+
+fn search_images(
+    graph: &Graph,
+    open: &[OpenImage],
+    options: &Options,
+    found: &mut Vec<(u32, Strength)>,
+) -> Result<(), VerdictError> {
+    let Some(&(_, first)) = open.first() else {
+        return Ok(());
+    };
+    let mut gone: Vec<u32> = open.iter().map(|&(here, _)| here).collect();
+    gone.sort_unstable();
+    let stays = |v: u32| gone.binary_search(&v).is_err();
+    let nodes: Vec<u32> = (0..graph.nodes() as u32).filter(|&v| stays(v)).collect();
+    let (left, back): (Vec<Pair>, Vec<Pair>) = graph
+        .edges()
+        .iter()
+        .partition(|&&(a, b)| stays(a) && stays(b));
+    let left = Alone::new(&nodes, &left);
+    let verdict = decide(&left.graph, options)?;
+    if verdict.value != Value::NotFiniteSolvable {
+        return Ok(());
+    }
+    if open.len() == 1 {
+        found.push((first, verdict.value_claim().strength));
+        return Ok(());
+    }
+    let parts = Parts::new(&left.graph, &verdict);
+    let name = |v: u32| left.nodes[v as usize];
+    let bodies = parts
+        .parts
+        .iter()
+        .map(|part| part.nodes.iter().map(|&v| name(v)).collect());
+    let bodies: Vec<Vec<u32>> = bodies.collect();
+    let bodies: Vec<&[u32]> = bodies.iter().map(Vec::as_slice).collect();
+    let links = parts.links.iter().map(|&((a, b), _)| (name(a), name(b)));
+    let pairs = links.chain(back);
+    let ends = pairs.clone().flat_map(|(a, b)| [a, b]);
+    let small = Condensation::new(terminals(&bodies, ends), pairs, std::iter::empty());
+    let moved = open.iter().map(|&(here, image)| {
+        let here = small.number(here);
+        (here.expect("a node with its pairs"), image)
+    });
+    let moved: Vec<OpenImage> = moved.collect();
+    let (one, other) = moved.split_at(moved.len() / 2);
+    search_images(&small.graph, one, options, found)?;
+    search_images(&small.graph, other, options, found)
 }
 
 /// Where each node comes in a search by distance, from one of those farthest from node 0 in its
