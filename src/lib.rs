@@ -13,6 +13,7 @@ mod catalog;
 mod certificates;
 mod check;
 mod command_line;
+mod contradictions;
 mod convert;
 mod decisions;
 mod draw;
@@ -38,6 +39,7 @@ mod witness;
 pub use bounds::Bounds;
 pub use check::{Archive, News, Statement, Terms, check_archive};
 pub use command_line::parse;
+pub use contradictions::Asked as ContradictionsAsked;
 pub use input::{InputArguments, of_tracks_alone};
 pub use limits::LimitArguments;
 pub use lists::Asked as ListsAsked;
@@ -90,7 +92,7 @@ fn after_long_help() -> String {
         + "\n\n\
 Exit codes: 0 all graphs are solvable or finite solvable (check: verified; audit: all agree; overview:
 all images with a pair are determined; models: solvable in every model; split: the model is one part
-with all images; merge and lists: what is shared fixes everything), 1 some are not (check: rejected;
+with all images; merge and lists: what is shared fixes everything; contradictions: there are none), 1 some are not (check: rejected;
 audit: a disagreement, a refuted claim), 2 bad usage or input, 3 too large for the method or for the
 limits of time and memory, 130 interrupted (Ctrl-C), 141 nobody reads the output, 143
 terminated. Of several graphs the largest code counts."
@@ -104,6 +106,8 @@ enum Command {
     Advise(advise::AdviseArguments),
     /// Follow a database while COLMAP matches, and say what joins.
     Watch(watch::WatchArguments),
+    /// Prove that not all motions of pairs can be right, and say which pairs to look at.
+    Contradictions(contradictions::ContradictionsArguments),
     /// Write the components to a folder, as COLMAP takes them.
     Export(export::ExportArguments),
     /// Take a COLMAP model apart where its tracks do not hold it together.
@@ -157,6 +161,7 @@ fn run(session: &Session, arguments: &CommandLine) -> Result<u8> {
         Some(Command::Watch(arguments)) => watch::run(session, arguments),
         Some(Command::Export(arguments)) => decisions::run(session, &arguments.plan()?),
         Some(Command::Split(arguments)) => split::run(session, arguments),
+        Some(Command::Contradictions(arguments)) => contradictions::run(session, arguments),
         Some(Command::Merge(arguments)) => merge::run(session, arguments),
         Some(Command::Lists(arguments)) => lists::run(session, arguments),
         Some(Command::Draw(arguments)) => decisions::run(session, &arguments.plan()?),

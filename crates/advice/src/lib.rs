@@ -8,6 +8,7 @@
 //! names ([`named`]); [`export`] writes components as COLMAP takes them.
 
 pub mod bottlenecks;
+pub mod contradictions;
 pub mod degenerate;
 pub mod explain;
 pub mod export;

@@ -21,6 +21,7 @@ pub mod matlab;
 mod matrix;
 pub mod matrix_market;
 pub mod model;
+mod motions;
 mod own_files;
 pub mod pairs;
 pub mod pickled;
@@ -41,6 +42,7 @@ pub use given::{Beside, Given, NamedParts, beside, cameras_beside, given, with_r
 pub use intrinsics::{Intrinsics, read_intrinsics};
 pub use matching::{Matching, OtherPair};
 pub use model::Model;
+pub use motions::{Motion, Motions, Unchecked, read_motions};
 pub use read::{Format, NamedGraph, ReadOptions, open_database, read_graphs, read_meant};
 pub use read_as::{Parsed, ReadAs};
 pub use tracks::{Frames, TrackFacts, TrackOptions};

@@ -1,8 +1,9 @@
 //! Files that are read in one piece.
 
 use crate::error::{Place, Problem, ReadError};
+use crate::inflate::{Compression, Inflater};
 use std::fs;
-use std::io::Read;
+use std::io::{Cursor, Read};
 use std::path::Path;
 
 /// All bytes of a file; `-` is standard input.
@@ -26,6 +27,22 @@ pub fn bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
 /// A file that cannot be read, or is not UTF-8.
 pub fn text(path: &Path) -> Result<String, ReadError> {
     String::from_utf8(bytes(path)?).map_err(|_| at(path, Problem::NotUtf8))
+}
+
+/// The text in bytes that may be compressed.
+///
+/// # Errors
+/// What cannot be unpacked, or is not UTF-8.
+pub(crate) fn text_of(bytes: &[u8]) -> Result<String, Problem> {
+    let mut inner = Vec::new();
+    let bytes = match Compression::of(bytes) {
+        Some(how) => {
+            Inflater::new(Box::new(Cursor::new(bytes.to_vec())), how).read_to_end(&mut inner)?;
+            inner
+        }
+        None => bytes.to_vec(),
+    };
+    String::from_utf8(bytes).map_err(|_| Problem::NotUtf8)
 }
 
 fn at(path: &Path, problem: Problem) -> ReadError {

@@ -8,6 +8,7 @@ pub mod at_cameras;
 pub mod audit;
 mod bottlenecks;
 mod condition;
+pub mod contradictions;
 pub mod database;
 pub mod growth;
 pub mod intrinsics;

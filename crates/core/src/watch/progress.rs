@@ -25,6 +25,8 @@ pub enum Step {
     Draws,
     /// The number of solutions.
     Solutions,
+    /// Cycles of measured motions.
+    Cycles,
 }
 
 /// What is being done, to how many cameras.
@@ -49,6 +51,7 @@ impl fmt::Display for Stage {
             Step::Components => "components",
             Step::Counting => "counting",
             Step::Draws => "draws for an error bound",
+            Step::Cycles => return write!(f, "cycles of {cameras} cameras"),
             Step::Solutions => return write!(f, "number of solutions of {cameras} cameras"),
         };
         write!(f, "core of {cameras} cameras: {step}")

@@ -70,6 +70,14 @@ impl Database {
         match *self {}
     }
 
+    /// The motions of its pairs.
+    ///
+    /// # Errors
+    /// None.
+    pub fn motions(&self, _: bool) -> Result<crate::Motions, ReadError> {
+        match *self {}
+    }
+
     /// The matches of incremental mapping.
     ///
     /// # Errors

@@ -7,8 +7,9 @@ use super::pairs::{Tables, of_cameras};
 use super::{
     DatabaseError, DatabaseFacts, Estimate, FeatureTracks, Groups, Pipeline, Views, estimate,
 };
-use super::{axes, base_lines, positions, rigs, tracks};
+use super::{axes, base_lines, hash, positions, rigs, tracks};
 use crate::error::{Fault, Place, Problem};
+use crate::motions::Motions;
 use crate::{Matching, NamedGraph, ReadAs, ReadError, ReadOptions, TrackOptions};
 use viewcert::graph::{Graph, Labels};
 
@@ -120,6 +121,30 @@ impl Database {
     /// The pairs that a mapper of COLMAP 4.2 takes, with their inliers, increasing.
     pub fn taken_by(&self, pipeline: Pipeline) -> Vec<((u32, u32), u32)> {
         self.tables.taken_by(pipeline)
+    }
+
+    /// What the pairs that incremental mapping takes say of the motion between two images, with the hash of all
+    /// keypoints and matches if it is asked. O(matches), and linear in what is hashed.
+    ///
+    /// # Errors
+    /// See [`DatabaseError`].
+    pub fn motions(&self, hashed: bool) -> Result<Motions, ReadError> {
+        let read = || {
+            self.opened.wake()?;
+            let mut views = views(&self.opened, &self.tables)?;
+            let names = self.tables.names.clone();
+            let mut motions =
+                Motions::of(&self.name, Labels::Names(names), self.tables.names.len());
+            for ((a, b), _) in self.taken_by(Pipeline::Incremental) {
+                motions.take([a, b], views.motion(a, b)?);
+            }
+            motions.is_database = true;
+            if hashed {
+                motions.hash = hash::hash(&self.opened.connection)?;
+            }
+            Ok(motions)
+        };
+        read().map_err(|error| in_file(&self.name, error))
     }
 
     /// The matches of the pairs that incremental mapping takes: two images and a feature of each.

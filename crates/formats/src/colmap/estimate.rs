@@ -52,13 +52,13 @@ impl Estimate {
     }
 }
 
-type Vector = [f64; 3];
-type Matrix = [Vector; 3];
+pub(super) type Vector = [f64; 3];
+pub(super) type Matrix = [Vector; 3];
 
 /// Rotation and translation that take coordinates of the first camera to those of the second.
-struct Pose {
-    rotation: Matrix,
-    translation: Vector,
+pub(super) struct Pose {
+    pub(super) rotation: Matrix,
+    pub(super) translation: Vector,
 }
 
 /// What the database says of a pair. O(matches).
@@ -94,6 +94,12 @@ pub fn estimate(views: &TwoViews) -> Estimate {
 
 /// The pose of an essential matrix that has most points before both cameras.
 fn pose(essential: &Matrix, matches: &[[Vector; 2]]) -> Option<Pose> {
+    let before = |pose: &Pose| matches.iter().filter(|two| is_before(pose, two)).count();
+    decompositions(essential)?.into_iter().max_by_key(before)
+}
+
+/// The four poses of an essential matrix.
+pub(super) fn decompositions(essential: &Matrix) -> Option<[Pose; 4]> {
     let e = essential;
     let half: f64 = e.iter().map(|row| dot(*row, *row)).sum::<f64>() / 2.0;
     let square = |i: usize, j: usize| if i == j { half } else { 0.0 } - dot(e[i], e[j]);
@@ -110,13 +116,11 @@ fn pose(essential: &Matrix, matches: &[[Vector; 2]]) -> Option<Pose> {
     let candidate = |sign: f64| {
         [0, 1, 2].map(|i| [0, 1, 2].map(|j| (cofactors[i][j] - sign * turned[j][i]) / length))
     };
-    let candidates = [1.0, -1.0].into_iter().flat_map(|turn| {
-        [1.0, -1.0].map(|sign| Pose {
-            rotation: candidate(turn),
-            translation: b.map(|x| sign * x),
-        })
-    });
-    candidates.max_by_key(|pose| matches.iter().filter(|two| is_before(pose, two)).count())
+    let signs = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)];
+    Some(signs.map(|(turn, sign)| Pose {
+        rotation: candidate(turn),
+        translation: b.map(|x| sign * x),
+    }))
 }
 
 /// Whether a point lies before both cameras.
@@ -146,11 +150,11 @@ fn median_angle(pose: &Pose, matches: &[[Vector; 2]]) -> Option<f64> {
     Some(*median)
 }
 
-fn dot(a: Vector, b: Vector) -> f64 {
+pub(super) fn dot(a: Vector, b: Vector) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-fn cross(a: Vector, b: Vector) -> Vector {
+pub(super) fn cross(a: Vector, b: Vector) -> Vector {
     [
         a[1] * b[2] - a[2] * b[1],
         a[2] * b[0] - a[0] * b[2],

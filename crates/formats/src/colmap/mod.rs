@@ -22,7 +22,11 @@ mod facts;
 #[cfg(feature = "databases")]
 mod focal;
 #[cfg(feature = "databases")]
+mod hash;
+#[cfg(feature = "databases")]
 mod keypoints;
+#[cfg(feature = "databases")]
+mod motion;
 #[cfg(feature = "databases")]
 mod open;
 #[cfg(feature = "databases")]

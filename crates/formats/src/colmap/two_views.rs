@@ -14,6 +14,12 @@ pub struct TwoViews {
     pub inliers: u32,
     /// The essential matrix E, in rows: y^T E x = 0 for x in the first image and y in the second.
     pub essential: Option<[[f64; 3]; 3]>,
+    /// E as it is stored, whatever else is.
+    pub stored_essential: Option<[[f64; 3]; 3]>,
+    /// The stored quaternion and translation, each if it is whole, finite and, the first, not zero.
+    pub qvec: Option<[f64; 4]>,
+    /// See there.
+    pub tvec: Option<[f64; 3]>,
     /// The rotation, as a quaternion (w, x, y, z), and the translation that take coordinates of the
     /// first camera to those of the second.
     pub pose: Option<([f64; 4], [f64; 3])>,

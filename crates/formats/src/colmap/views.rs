@@ -10,8 +10,10 @@ use rusqlite::types::ValueRef;
 use rusqlite::{Connection, OptionalExtension, Row, params};
 
 use super::focal::SPHERICAL;
+use super::motion::motion;
 use super::tables::{PAIR_FACTOR, columns};
 use super::{DatabaseError, TwoViews};
+use crate::motions::Measured;
 
 /// A database whose pairs are asked for one by one.
 pub struct Views<'a> {
@@ -23,6 +25,8 @@ pub struct Views<'a> {
     cameras: Vec<Option<Camera>>,
     /// Whether the focal length of every image was known before matching, by its node.
     priors: Vec<bool>,
+    /// Whether the camera of every image has a plane and no distortion, by its node.
+    plain: Vec<bool>,
     /// Which columns of poses the table has: E, F, and a quaternion with a translation.
     has: [bool; 3],
     has_config: bool,
@@ -68,6 +72,7 @@ impl<'a> Views<'a> {
             ids[node as usize] = id;
         }
         let (mut cameras, mut priors) = (vec![None; images], vec![false; images]);
+        let mut plain = vec![false; images];
         if columns(connection, "cameras")?.len() > 5
             && columns(connection, "images")?
                 .iter()
@@ -81,6 +86,7 @@ impl<'a> Views<'a> {
                 let id: i64 = row.get(0)?;
                 if let Some(&node) = nodes.get(&id) {
                     cameras[node as usize] = camera(row)?;
+                    plain[node as usize] = is_plain(row)?;
                     let prior: Option<i64> = row.get(3)?;
                     priors[node as usize] = prior.is_some_and(|prior| prior != 0);
                 }
@@ -98,6 +104,7 @@ impl<'a> Views<'a> {
             ids,
             cameras,
             priors,
+            plain,
             has: [has("E"), has("F"), posed],
             has_config: has("config"),
             keypoints: keypoints.then(Keypoints::default),
@@ -111,6 +118,18 @@ impl<'a> Views<'a> {
     /// If there is no such image.
     pub fn has_prior_focal_length(&self, image: u32) -> bool {
         self.priors[image as usize]
+    }
+
+    /// What is measured of a pair, or why it cannot be checked.
+    ///
+    /// # Errors
+    /// As of [`Self::two`].
+    pub(super) fn motion(&mut self, a: u32, b: u32) -> Result<Measured, DatabaseError> {
+        let both = [a, b].map(|image| image as usize);
+        let [priors, plain] =
+            [&self.priors, &self.plain].map(|all| both.iter().all(|&image| all[image]));
+        let views = self.two(a, b)?.ok_or(DatabaseError::Changed)?;
+        Ok(motion(&views, priors, plain))
     }
 
     /// What is known of a pair; nothing, if it is not in the table of verified pairs.
@@ -168,13 +187,18 @@ impl<'a> Views<'a> {
             inliers,
             ..TwoViews::default()
         };
-        if let (Ok(q), Ok(t)) = (<[f64; 4]>::try_from(q), <[f64; 3]>::try_from(t))
+        let (q, t) = (<[f64; 4]>::try_from(q).ok(), <[f64; 3]>::try_from(t).ok());
+        let is_finite = |numbers: &[f64]| numbers.iter().all(|number| number.is_finite());
+        found.qvec = q.filter(|q| is_finite(q));
+        found.tvec = t.filter(|t| is_finite(t));
+        if let (Some(q), Some(t)) = (q, t)
             && q.iter().any(|&number| number != 0.0)
             && t.iter().any(|&number| number != 0.0)
         {
             found.pose = Some((q, t));
         }
         let [e, f] = [e, f].map(|m| matrix(&m));
+        found.stored_essential = e;
         // A pair with a fundamental matrix was verified by it; the essential one was then worse.
         let of_fundamental = || {
             let [Some(Camera::Plane(one)), Some(Camera::Plane(two))] = cameras else {
@@ -276,6 +300,27 @@ fn camera(row: &Row) -> Result<Option<Camera>, DatabaseError> {
         focal: [x, y],
         centre: [u, v],
     })))
+}
+
+/// Whether a camera has a model with a plane, all its parameters, and no distortion.
+fn is_plain(row: &Row) -> Result<bool, DatabaseError> {
+    // Focal lengths, and parameters in all.
+    let (focal, all) = match row.get(1)? {
+        0i64 => (1, 3),
+        1 => (2, 4),
+        2 => (1, 4),
+        3 => (1, 5),
+        4 => (2, 8),
+        6 => (2, 12),
+        _ => return Ok(false),
+    };
+    let numbers = doubles(row.get_ref(2)?);
+    let is_plain = |(k, &x): (usize, &f64)| match k {
+        k if k < focal => x > 0.0 && x.is_finite(),
+        k if k < focal + 2 => x.is_finite(),
+        _ => x == 0.0,
+    };
+    Ok(numbers.len() == all && numbers.iter().enumerate().all(is_plain))
 }
 
 /// The numbers of a blob; none of what is no blob.

@@ -38,7 +38,7 @@ const PAIRS: [&str; 6] = [
 ];
 
 /// Whether a text begins like a pose graph: with a tag in capitals and a number.
-pub(super) fn is_g2o(head: &str) -> bool {
+pub(crate) fn is_g2o(head: &str) -> bool {
     let first = head.lines().map(str::trim_start);
     let mut first = first.filter(|line| !line.is_empty() && !line.starts_with('#'));
     first.next().is_some_and(|line| {

@@ -14,6 +14,7 @@ use crate::read_as::Parsed;
 
 mod collected;
 mod g2o;
+pub(crate) use g2o::is_g2o;
 mod pipelines;
 mod raw_matches;
 mod stars;

@@ -1,0 +1,154 @@
+//! One rotation for each image, such that few pairs disagree: floats propose, integers count.
+//!
+//! From a spanning tree of pairs that close triangles, each image takes the rotation with which most of its pairs
+//! agree, of their mean and of what single pairs say. Small graphs try many trees.
+
+use super::turns::{Turn, agrees, angle, conj, times, unit};
+use super::web::Web;
+use rayon::prelude::*;
+use std::cmp::Reverse;
+use viewcert::graph::UnionFind;
+
+/// Rotations in integers of 24 bits, and the pairs that disagree with them.
+pub(super) struct Average {
+    pub(super) rotations: Vec<[i64; 4]>,
+    pub(super) beyond: Vec<u32>,
+}
+
+/// Work of all trees, in looks at pairs.
+const WORK: usize = 4_000_000;
+const TREES: usize = 64;
+/// Triangles of a pair that count for its place in the tree.
+const TRIANGLES: usize = 24;
+/// Single pairs whose word an image tries.
+const WORDS: usize = 12;
+
+/// O(pairs + triangles that are looked at), times the number of trees.
+pub(super) fn average(web: &Web, theta: u32) -> Average {
+    let pairs = web.motions.len();
+    let limit = f64::from(theta);
+    let all: Vec<u32> = (0..pairs as u32).collect();
+    let support = all.par_iter().map(|&pair| {
+        let near = web.triangles(pair).take(TRIANGLES);
+        near.filter(|walk| web.open(walk) <= limit).count()
+    });
+    let support: Vec<usize> = support.collect();
+    let degree = (0..web.images() as u32)
+        .map(|image| web.at(image).len().min(64))
+        .max()
+        .unwrap_or(0);
+    let trees = (WORK / (pairs * (degree + 1)).max(1)).clamp(1, TREES);
+    let found = (0..trees as u64).into_par_iter().map(|seed| {
+        let mut turns = from_tree(web, &support, seed);
+        for _ in 0..6 {
+            if !improve(web, &mut turns, limit) {
+                break;
+            }
+        }
+        let rotations = turns
+            .iter()
+            .map(|turn| turn.map(|x| (x * f64::from(1 << 24)).round() as i64));
+        let rotations: Vec<[i64; 4]> = rotations.collect();
+        let beyond = all.par_iter().copied().filter(|&pair| {
+            let motion = &web.motions[pair as usize];
+            !agrees(
+                motion,
+                motion.images.map(|image| rotations[image as usize]),
+                theta,
+            )
+        });
+        let beyond: Vec<u32> = beyond.collect();
+        Average { rotations, beyond }
+    });
+    let best = found.min_by_key(|one| one.beyond.len());
+    best.unwrap_or(Average {
+        rotations: Vec::new(),
+        beyond: Vec::new(),
+    })
+}
+
+/// The rotations along a spanning tree, of the best pairs first; other seeds shuffle them.
+fn from_tree(web: &Web, support: &[usize], seed: u64) -> Vec<Turn> {
+    let mut order: Vec<u32> = (0..web.motions.len() as u32).collect();
+    let shuffled = |pair: u32| {
+        let mixed =
+            (u64::from(pair) + 1).wrapping_mul(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15)) >> 32;
+        (support[pair as usize] as u64 + 1) * (mixed & 0xff)
+    };
+    order.sort_by_cached_key(|&pair| {
+        let motion = &web.motions[pair as usize];
+        let [i, j] = motion.images;
+        let value = if seed == 0 {
+            support[pair as usize] as u64
+        } else {
+            shuffled(pair)
+        };
+        (Reverse(value), Reverse(motion.inliers), i.abs_diff(j))
+    });
+    let mut sets = UnionFind::new(web.images());
+    let mut is_in = vec![false; order.len()];
+    for pair in order {
+        let [i, j] = web.motions[pair as usize]
+            .images
+            .map(|image| image as usize);
+        is_in[pair as usize] = sets.union(i, j);
+    }
+    let mut turns: Vec<Option<Turn>> = vec![None; web.images()];
+    for root in 0..web.images() as u32 {
+        if turns[root as usize].is_some() {
+            continue;
+        }
+        turns[root as usize] = Some([1.0, 0.0, 0.0, 0.0]);
+        let mut open = vec![root];
+        while let Some(image) = open.pop() {
+            for &(other, step) in web.at(image) {
+                if is_in[step.0 as usize] && turns[other as usize].is_none() {
+                    turns[other as usize] =
+                        turns[image as usize].map(|turn| unit(times(&web.turn(step), &turn)));
+                    open.push(other);
+                }
+            }
+        }
+    }
+    turns.into_iter().flatten().collect()
+}
+
+/// Lets each image in turn take a rotation with which more of its pairs agree; whether any did, or moved.
+fn improve(web: &Web, turns: &mut [Turn], limit: f64) -> bool {
+    let mut has_moved = false;
+    for image in 0..web.images() as u32 {
+        let said = web.at(image).iter();
+        let said: Vec<Turn> = said
+            .map(|&(other, step)| times(&conj(web.turn(step)), &turns[other as usize]))
+            .collect();
+        if said.len() < 2 {
+            continue;
+        }
+        let least = (limit / 2.0).to_radians().cos();
+        let apart = |a: &Turn, b: &Turn| (0..4).map(|k| a[k] * b[k]).sum::<f64>();
+        let votes = |turn: &Turn| {
+            said.iter()
+                .filter(|one| apart(one, turn).abs() >= least)
+                .count()
+        };
+        let now = turns[image as usize];
+        let mut mean = [0.0; 4];
+        for one in &said {
+            let along = apart(one, &now);
+            let weight = along.signum() / (1.0 - along * along).max(4e-4).sqrt();
+            mean = [0, 1, 2, 3].map(|k| mean[k] + weight * one[k]);
+        }
+        let stride = said.len().div_ceil(WORDS);
+        let tried = said.iter().step_by(stride).copied().chain([unit(mean)]);
+        let (mut best, mut most) = (now, votes(&now));
+        for turn in tried {
+            let found = votes(&turn);
+            if found > most || found == most && turn == unit(mean) {
+                has_moved |= found > most || angle(&times(&conj(best), &turn)) > 0.1;
+                (best, most) = (turn, found);
+            }
+        }
+        turns[image as usize] = best;
+    }
+    has_moved
+}
