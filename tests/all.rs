@@ -18,6 +18,7 @@ mod catalog;
 mod certificates;
 mod checking;
 mod colmap;
+mod contradictions;
 mod convert;
 mod cross;
 mod degenerate;

@@ -7,6 +7,7 @@ use super::turns::{Turn, agrees, angle, conj, times, unit};
 use super::web::Web;
 use rayon::prelude::*;
 use std::cmp::Reverse;
+use std::collections::BinaryHeap;
 use viewcert::graph::UnionFind;
 
 /// Rotations in integers of 24 bits, and the pairs that disagree with them.
@@ -20,8 +21,14 @@ const WORK: usize = 4_000_000;
 const TREES: usize = 64;
 /// Triangles of a pair that count for its place in the tree.
 const TRIANGLES: usize = 24;
+/// Steps of a cycle that says the same of a pair in no triangle.
+const AROUND: usize = 6;
 /// Single pairs whose word an image tries.
 const WORDS: usize = 12;
+/// Rounds through all images.
+const SWEEPS: usize = 24;
+/// How much longer a pair without triangles is.
+const FAR: u64 = 48;
 
 /// O(pairs + triangles that are looked at), times the number of trees.
 pub(super) fn average(web: &Web, theta: u32) -> Average {
@@ -30,7 +37,16 @@ pub(super) fn average(web: &Web, theta: u32) -> Average {
     let all: Vec<u32> = (0..pairs as u32).collect();
     let support = all.par_iter().map(|&pair| {
         let near = web.triangles(pair).take(TRIANGLES);
-        near.filter(|walk| web.open(walk) <= limit).count()
+        let [mut seen, mut closed] = [0; 2];
+        for walk in near {
+            seen += 1;
+            closed += usize::from(web.open(&walk) <= limit);
+        }
+        let around = || web.around(pair, AROUND, |_| true);
+        match seen {
+            0 => around().map_or(0, |walk| usize::from(web.open(&walk) <= limit)),
+            _ => closed,
+        }
     });
     let support: Vec<usize> = support.collect();
     let degree = (0..web.images() as u32)
@@ -39,25 +55,17 @@ pub(super) fn average(web: &Web, theta: u32) -> Average {
         .unwrap_or(0);
     let trees = (WORK / (pairs * (degree + 1)).max(1)).clamp(1, TREES);
     let found = (0..trees as u64).into_par_iter().map(|seed| {
-        let mut turns = from_tree(web, &support, seed);
-        for _ in 0..6 {
-            if !improve(web, &mut turns, limit) {
-                break;
-            }
-        }
-        let rotations = turns
-            .iter()
-            .map(|turn| turn.map(|x| (x * f64::from(1 << 24)).round() as i64));
-        let rotations: Vec<[i64; 4]> = rotations.collect();
-        let beyond = all.par_iter().copied().filter(|&pair| {
-            let motion = &web.motions[pair as usize];
-            !agrees(
-                motion,
-                motion.images.map(|image| rotations[image as usize]),
-                theta,
-            )
-        });
-        let beyond: Vec<u32> = beyond.collect();
+        let mut turns = match seed {
+            0 => from_tree(web, &near_tree(web, &support)),
+            seed => from_tree(web, &shuffled_tree(web, &support, seed)),
+        };
+        let sweeps = if trees > 1 { SWEEPS / 4 } else { SWEEPS };
+        let _ = (0..sweeps)
+            .take_while(|_| improve(web, &mut turns, limit))
+            .count();
+        let integer = |turn: &Turn| turn.map(|x| (x * f64::from(1 << 24)).round() as i64);
+        let rotations: Vec<[i64; 4]> = turns.iter().map(integer).collect();
+        let beyond = beyond(web, &rotations, theta);
         Average { rotations, beyond }
     });
     let best = found.min_by_key(|one| one.beyond.len());
@@ -67,23 +75,53 @@ pub(super) fn average(web: &Web, theta: u32) -> Average {
     })
 }
 
-/// The rotations along a spanning tree, of the best pairs first; other seeds shuffle them.
-fn from_tree(web: &Web, support: &[usize], seed: u64) -> Vec<Turn> {
-    let mut order: Vec<u32> = (0..web.motions.len() as u32).collect();
-    let shuffled = |pair: u32| {
-        let mixed =
-            (u64::from(pair) + 1).wrapping_mul(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15)) >> 32;
-        (support[pair as usize] as u64 + 1) * (mixed & 0xff)
-    };
-    order.sort_by_cached_key(|&pair| {
+/// The pairs that disagree with rotations of all images by more than an angle, increasing.
+pub(super) fn beyond(web: &Web, rotations: &[[i64; 4]], theta: u32) -> Vec<u32> {
+    let all = (0..web.motions.len() as u32).into_par_iter();
+    let beyond = all.filter(|&pair| {
         let motion = &web.motions[pair as usize];
-        let [i, j] = motion.images;
-        let value = if seed == 0 {
-            support[pair as usize] as u64
-        } else {
-            shuffled(pair)
-        };
-        (Reverse(value), Reverse(motion.inliers), i.abs_diff(j))
+        !agrees(
+            motion,
+            motion.images.map(|image| rotations[image as usize]),
+            theta,
+        )
+    });
+    beyond.collect()
+}
+
+/// The pairs of a tree of shortest ways from the image with most pairs, where pairs that close triangles are short.
+fn near_tree(web: &Web, support: &[usize]) -> Vec<bool> {
+    let mut is_in = vec![false; web.motions.len()];
+    let mut done = vec![false; web.images()];
+    let mut order: Vec<u32> = (0..web.images() as u32).collect();
+    order.sort_by_key(|&image| Reverse(web.at(image).len()));
+    for root in order {
+        let mut open = BinaryHeap::from([Reverse((0, root, None))]);
+        while let Some(Reverse((cost, image, by))) = open.pop() {
+            if std::mem::replace(&mut done[image as usize], true) {
+                continue;
+            }
+            if let Some(pair) = by {
+                is_in[pair as usize] = true;
+            }
+            for &(other, (pair, _)) in web.at(image) {
+                if !done[other as usize] {
+                    let further = 1 + FAR / (1 + support[pair as usize] as u64);
+                    open.push(Reverse((cost + further, other, Some(pair))));
+                }
+            }
+        }
+    }
+    is_in
+}
+
+/// The pairs of a spanning tree of pairs that close triangles, shuffled.
+fn shuffled_tree(web: &Web, support: &[usize], seed: u64) -> Vec<bool> {
+    let mut order: Vec<u32> = (0..web.motions.len() as u32).collect();
+    order.sort_by_cached_key(|&pair| {
+        let mixed = (u64::from(pair) + 1).wrapping_mul(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));
+        let value = (support[pair as usize] as u64 + 1) * (mixed >> 32 & 0xff);
+        Reverse((value, web.motions[pair as usize].inliers))
     });
     let mut sets = UnionFind::new(web.images());
     let mut is_in = vec![false; order.len()];
@@ -93,6 +131,11 @@ fn from_tree(web: &Web, support: &[usize], seed: u64) -> Vec<Turn> {
             .map(|image| image as usize);
         is_in[pair as usize] = sets.union(i, j);
     }
+    is_in
+}
+
+/// The rotations along the pairs of a spanning tree.
+fn from_tree(web: &Web, is_in: &[bool]) -> Vec<Turn> {
     let mut turns: Vec<Option<Turn>> = vec![None; web.images()];
     for root in 0..web.images() as u32 {
         if turns[root as usize].is_some() {

@@ -16,7 +16,6 @@ pub use packing::Packing;
 pub use sides::{Look, Neighbours};
 
 use crate::Nearness;
-use average::average;
 use rayon::prelude::*;
 use std::borrow::Cow;
 use std::collections::HashSet;
@@ -121,7 +120,7 @@ fn one_way(motions: &Motions, theta: u32, watch: &Watch) -> Result<Contradiction
     let pairs = &motions.pairs[..];
     let web = Web::new(pairs, motions.images);
     let angles = [theta, phi(theta)];
-    let average = average(&web, theta);
+    let average = average::average(&web, theta);
     task.check()?;
     let open = open_cycles(&web, &average.beyond, theta);
     task.check()?;
@@ -146,7 +145,7 @@ fn one_way(motions: &Motions, theta: u32, watch: &Watch) -> Result<Contradiction
     task.check()?;
     let directed = has_directions.then(|| Packing::of(both.clone(), pairs.len(), |_| false));
     let finer = (theta > FINER).then(|| {
-        let beyond = average::average(&web, FINER).beyond;
+        let beyond = average::beyond(&web, &average.rotations, FINER);
         let open = open_cycles(&web, &beyond, FINER);
         Packing::of(
             verified(pairs, &open, [FINER, phi(FINER)]),
@@ -156,7 +155,8 @@ fn one_way(motions: &Motions, theta: u32, watch: &Watch) -> Result<Contradiction
     });
     task.check()?;
     let at_least = packing.at_least();
-    let neighbours = sides::neighbours(&web, &motions.others, &both, &near, theta);
+    let neighbours = (at_least > 0 && motions.is_database)
+        .then(|| sides::neighbours(&web, &motions.others, &both, &near, theta));
     Ok(Contradictions {
         angles,
         directed: directed.filter(|more| more.at_least() > at_least),
@@ -165,7 +165,9 @@ fn one_way(motions: &Motions, theta: u32, watch: &Watch) -> Result<Contradiction
             .map(|more| (FINER, more)),
         look_at: sides::look_at(&web, &open, &average.beyond, theta),
         without_cycle: without_cycle(pairs, motions.images),
-        neighbours: neighbours.filter(|found| at_least > 0 && found.packing.at_least() > 0),
+        neighbours: neighbours
+            .flatten()
+            .filter(|found| found.packing.at_least() > 0),
         packing,
         rotations: average.rotations,
         beyond: average.beyond,
@@ -181,8 +183,9 @@ fn verified(pairs: &[Motion], cycles: &[Cycle], angles: [u32; 2]) -> Vec<Cycle> 
     cycles.par_iter().filter(holds).cloned().collect()
 }
 
-/// Cycles whose composed rotation turns by more than theta a step: all short ones of a small graph; else, for each
-/// pair that disagrees with the rotations of all images, some with no other such pair, those that share no pair first.
+/// Cycles whose composed rotation turns by more than theta a step. First, for each pair that disagrees with the
+/// rotations of all images, one with no other such pair, such that they share no pair; then all short ones of a
+/// small graph, and some more of single pairs.
 fn open_cycles(web: &Web, beyond: &[u32], theta: u32) -> Vec<Cycle> {
     let is_open = |walk: &[Step]| web.open(walk) > f64::from(theta) * walk.len() as f64 + 1e-6;
     let cycle = |walk: Vec<Step>| Cycle {
@@ -190,50 +193,46 @@ fn open_cycles(web: &Web, beyond: &[u32], theta: u32) -> Vec<Cycle> {
         witness: None,
     };
     let most = LONGEST.min(179 / theta as usize);
-    let is_small = web.motions.len() <= ALL;
-    let mut found = Vec::new();
-    if is_small {
-        found = web.short(most >= 4, |walk| {
-            (walk.len() <= most && is_open(walk)).then(|| cycle(walk.to_vec()))
-        });
-    }
-    let is_beyond: HashSet<u32> = beyond.iter().copied().collect();
-    let seen: HashSet<u32> = found
+    let mut is_beyond = vec![false; web.motions.len()];
+    beyond
         .iter()
-        .flat_map(|cycle| cycle.walk.iter().map(|step| step.0))
-        .collect();
-    let mut used: HashSet<u32> = HashSet::new();
-    let others = |walk: &[Step]| walk[1..].iter().all(|step| !is_beyond.contains(&step.0));
-    let mut doubts: Vec<u32> = beyond
-        .iter()
-        .copied()
-        .filter(|pair| !seen.contains(pair))
-        .collect();
+        .for_each(|&pair| is_beyond[pair as usize] = true);
+    let (mut used, nothing) = (is_beyond.clone(), vec![false; web.motions.len()]);
+    let mut doubts = beyond.to_vec();
     let degree = |image: u32| web.at(image).len();
     doubts.sort_by_key(|&pair| {
         let [i, j] = web.motions[pair as usize].images;
         (degree(i).min(degree(j)), pair)
     });
-    let mut further = Vec::new();
+    let (mut found, mut further) = (Vec::new(), Vec::new());
     for &pair in &doubts {
-        let triangles = || {
-            web.triangles(pair)
-                .filter(|walk| walk.len() <= most && others(walk) && is_open(walk))
+        let free = |is_used: &[bool], walk: &[Step]| {
+            walk.len() <= most && walk[1..].iter().all(|step| !is_used[step.0 as usize])
         };
-        let first = triangles().find(|walk| walk[1..].iter().all(|step| !used.contains(&step.0)));
-        let first = first.or_else(|| {
-            let free = |other: u32| !is_beyond.contains(&other) && !used.contains(&other);
-            web.around(pair, most, free).filter(|walk| is_open(walk))
-        });
-        if let Some(walk) = first {
-            used.extend(walk[1..].iter().map(|step| step.0));
+        let first = web
+            .triangles(pair)
+            .find(|walk| free(&used, walk) && is_open(walk));
+        let around = |is_used: &[bool]| {
+            let walk = web.around(pair, most, |other| !is_used[other as usize]);
+            walk.filter(|walk| is_open(walk))
+        };
+        if let Some(walk) = first.or_else(|| around(&used)) {
+            walk.iter().for_each(|step| used[step.0 as usize] = true);
             found.push(cycle(walk));
         }
         if doubts.len() <= DOUBTS {
-            further.extend(triangles().take(MORE).map(cycle));
-            let around = web.around(pair, most, |other| !is_beyond.contains(&other));
-            further.extend(around.filter(|walk| is_open(walk)).map(cycle));
+            let more = web
+                .triangles(pair)
+                .filter(|walk| free(&is_beyond, walk) && is_open(walk));
+            further.extend(more.take(MORE).map(cycle));
+            further.extend(around(&is_beyond).map(cycle));
+            further.extend(around(&nothing).map(cycle));
         }
+    }
+    if web.motions.len() <= ALL {
+        found.extend(web.short(most >= 4, |walk| {
+            (walk.len() <= most && is_open(walk)).then(|| cycle(walk.to_vec()))
+        }));
     }
     found.extend(further);
     found

@@ -35,6 +35,8 @@ pub struct Neighbours {
 
 /// How many neighbours must have more inliers than other pairs: by this factor, in the median.
 const MORE: u32 = 2;
+/// Files apart of images that are near, for where to look first.
+const NEAR: u32 = 3;
 
 fn look(web: &Web, cycles: &[Cycle], pair: u32, theta: u32) -> Look {
     let mut used = HashSet::new();
@@ -111,7 +113,7 @@ pub(super) fn neighbours(
     theta: u32,
 ) -> Option<Neighbours> {
     let motions = web.motions;
-    let is_near = |window: u32| move |[i, j]: [u32; 2]| matches!(near.of(i, j), Some(Near::Name(steps)) if steps <= window);
+    let near_by = |window: u32| move |[i, j]: [u32; 2]| matches!(near.of(i, j), Some(Near::Name(steps)) if steps <= window);
     let all = 0..motions.len() as u32;
     let median = |pairs: Vec<u32>| {
         let mut inliers: Vec<u32> = pairs
@@ -128,11 +130,11 @@ pub(super) fn neighbours(
         let of_motions = motions.iter().map(|motion| motion.images);
         for [i, j] in of_motions.chain(unchecked.iter().copied()) {
             (has_pair[i as usize], has_pair[j as usize]) = (true, true);
-            joined += usize::from(is_near(window)([i, j]) && sets.union(i as usize, j as usize));
+            joined += usize::from(near_by(window)([i, j]) && sets.union(i as usize, j as usize));
         }
         joined + 1 == has_pair.iter().filter(|has| **has).count()
     })?;
-    let is_near = is_near(window);
+    let is_near = near_by(window);
     let (assumed, others): (Vec<u32>, Vec<u32>) =
         all.partition(|&pair| is_near(motions[pair as usize].images));
     if median(assumed.clone()) < MORE * median(others.clone()) {
@@ -143,27 +145,29 @@ pub(super) fn neighbours(
     if cycles.iter().any(|cycle| free(cycle) == 0) {
         return None;
     }
-    let chains = others
-        .iter()
-        .filter_map(|&pair| web.around(pair, usize::MAX, is_assumed));
     let limit = f64::from(theta);
-    let chains = chains.filter(|walk| web.open(walk) > 3.0 * limit);
-    let chains: Vec<Cycle> = chains
-        .map(|walk| Cycle {
-            walk,
-            witness: None,
-        })
-        .collect();
+    let chains = others.iter();
+    let chains = chains.filter_map(|&pair| web.around(pair, usize::MAX, is_assumed));
+    let chains = chains.map(|walk| Cycle {
+        walk,
+        witness: None,
+    });
+    let chains: Vec<Cycle> = chains.collect();
     let most = LONGEST.min(179 / theta as usize);
     let is_open =
         |walk: &[Step]| walk.len() <= most && web.open(walk) > (limit + 1.0) * walk.len() as f64;
     let open = chains.iter().filter(|cycle| is_open(&cycle.walk));
     let all: Vec<Cycle> = open.chain(cycles).cloned().collect();
     let packing = Packing::of(all, motions.len(), is_assumed);
-    let weighty = packing.pairs();
-    let first = chains.iter().map(|cycle| cycle.walk[0].0);
-    let first = first.filter(|pair| weighty.binary_search(pair).is_ok());
-    let first = first.max_by_key(|&pair| (motions[pair as usize].inliers, Reverse(pair)));
+    // Where pairs of neighbours are unchecked, others near by lead past them: this says where to look, and no more.
+    let is_near = |pair: u32| near_by(NEAR)(motions[pair as usize].images);
+    let is_far = |pair: &u32| {
+        let around = web.around(*pair, usize::MAX, is_near);
+        around.is_some_and(|walk| web.open(&walk) > 3.0 * limit)
+    };
+    let weighty = packing.pairs().into_iter();
+    let far = weighty.filter(|&pair| !is_near(pair)).filter(is_far);
+    let first = far.max_by_key(|&pair| (motions[pair as usize].inliers, Reverse(pair)));
     Some(Neighbours {
         window,
         assumed,

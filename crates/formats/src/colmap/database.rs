@@ -7,7 +7,7 @@ use super::pairs::{Tables, of_cameras};
 use super::{
     DatabaseError, DatabaseFacts, Estimate, FeatureTracks, Groups, Pipeline, Views, estimate,
 };
-use super::{axes, base_lines, hash, positions, rigs, tracks};
+use super::{axes, base_lines, positions, raw, rigs, tracks};
 use crate::error::{Fault, Place, Problem};
 use crate::motions::Motions;
 use crate::{Matching, NamedGraph, ReadAs, ReadError, ReadOptions, TrackOptions};
@@ -140,7 +140,7 @@ impl Database {
             }
             motions.is_database = true;
             if hashed {
-                motions.hash = hash::hash(&self.opened.connection)?;
+                motions.hash = Some(raw::hash(&self.opened.connection)?);
             }
             Ok(motions)
         };

@@ -22,8 +22,6 @@ mod facts;
 #[cfg(feature = "databases")]
 mod focal;
 #[cfg(feature = "databases")]
-mod hash;
-#[cfg(feature = "databases")]
 mod keypoints;
 #[cfg(feature = "databases")]
 mod motion;

@@ -6,6 +6,8 @@ use std::path::Path;
 
 use rusqlite::Connection;
 use rusqlite::types::ValueRef;
+use sha2::{Digest, Sha256};
+use viewcert::certificate::hex;
 
 use super::DatabaseError;
 use super::open::Opened;
@@ -41,10 +43,7 @@ pub fn raw_tables(path: &Path) -> Result<[Vec<RawRow>; 4], ReadError> {
         // SQLite's own words about a file that is not there say less.
         File::open(path).map_err(|error| DatabaseError::Other(error.to_string()))?;
         let opened = Opened::new(path)?;
-        let mut tables = [const { Vec::new() }; 4];
-        for (rows, table) in tables.iter_mut().zip(TABLES) {
-            *rows = read_table(&opened.connection, table)?;
-        }
+        let tables = read_tables(&opened.connection)?;
         opened.finish()?;
         Ok(tables)
     };
@@ -52,6 +51,36 @@ pub fn raw_tables(path: &Path) -> Result<[Vec<RawRow>; 4], ReadError> {
         let name = path.display().to_string();
         Place::Input.fault(error.into()).in_file(&name)
     })
+}
+
+fn read_tables(connection: &Connection) -> Result<[Vec<RawRow>; 4], DatabaseError> {
+    let mut tables = [const { Vec::new() }; 4];
+    for (rows, table) in tables.iter_mut().zip(TABLES) {
+        *rows = read_table(connection, table)?;
+    }
+    Ok(tables)
+}
+
+/// The hash of these tables, as a certificate of contradictions has it.
+///
+/// # Errors
+/// As of [`raw_tables`].
+pub(super) fn hash(connection: &Connection) -> Result<String, DatabaseError> {
+    let mut hash = Sha256::new();
+    hash.update(b"viewcert database 1\n");
+    for rows in read_tables(connection)? {
+        hash.update((rows.len() as u64).to_le_bytes());
+        for (numbers, blobs) in rows {
+            numbers
+                .iter()
+                .for_each(|number| hash.update(number.to_le_bytes()));
+            for blob in blobs {
+                hash.update((blob.len() as u64).to_le_bytes());
+                hash.update(blob);
+            }
+        }
+    }
+    Ok(hex(&hash.finalize()))
 }
 
 fn read_table(
