@@ -10,7 +10,9 @@ use pyo3::types::PyBytes;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use viewcert_check::Failure;
-use viewcert_cli::{ListsAsked, MergeAsked, News, OverviewAsked, Terms, check_archive};
+use viewcert_cli::{
+    ContradictionsAsked, ListsAsked, MergeAsked, News, OverviewAsked, Terms, check_archive,
+};
 use viewcert_formats::folder::Listing;
 use viewcert_report::overview_page;
 use viewcert_session::Session;
@@ -95,6 +97,33 @@ pub(crate) fn merge(
             models: [&one, &other],
             database: database.as_deref(),
             options,
+        };
+        let (mut json, mut text) = (Vec::new(), Vec::new());
+        asked.of(&session, |report| {
+            report.write_json(&mut json)?;
+            Ok(report.write(&mut text)?)
+        })?;
+        Ok((String::from_utf8(json)?, String::from_utf8(text)?))
+    };
+    let found = job.run(py, work)?;
+    found.map_err(|error| of_any(&error))
+}
+
+/// How many measured motions cannot all be right, as JSON and as text.
+#[pyfunction]
+pub(crate) fn contradictions(
+    py: Python<'_>,
+    path: PathBuf,
+    angle: u32,
+    certificate: Option<PathBuf>,
+) -> PyResult<(String, String)> {
+    let job = Job::new(py)?;
+    let session = Session::under(job.watch());
+    let work = move || -> anyhow::Result<(String, String)> {
+        let asked = ContradictionsAsked {
+            file: &path,
+            angle,
+            certificate: certificate.as_deref(),
         };
         let (mut json, mut text) = (Vec::new(), Vec::new());
         asked.of(&session, |report| {

@@ -38,7 +38,7 @@ mod _native {
     #[pymodule_export]
     use super::decided::{Decided, decide};
     #[pymodule_export]
-    use super::files::{Archive, check_all, lists, merge, overview};
+    use super::files::{Archive, check_all, contradictions, lists, merge, overview};
     #[pymodule_export]
     use super::graph::{Graph, graph_of_integers, graph_of_nodes, read};
     #[pymodule_export]

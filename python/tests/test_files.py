@@ -107,6 +107,19 @@ def test_a_merge_is_the_programs(program: Program, data: pathlib.Path) -> None:
 
 
 
+def test_contradictions_are_the_programs(program: Program, data: pathlib.Path, tmp_path: pathlib.Path) -> None:
+    path, proof = data / "turn4/photos/books.db", tmp_path / "proof.json"
+    found = viewcert.contradictions(path, certificate=proof)
+    (theirs,) = program.json("contradictions", path)
+    assert untimed(found.found) == untimed(theirs)
+    assert found.at_least >= 40 and (found.checkable, found.unchecked) == (183, 26)
+    assert len(found.look_at) == 2 and found.report().startswith("contradictions  at least 4")
+    assert proof.read_text().startswith('{"format":"viewcert certificate of contradictions"')
+    assert viewcert.contradictions(data / "turn4/photos/books_seq3.db").at_least == 0
+    with pytest.raises(viewcert.InputError, match="from 1 to 59"):
+        viewcert.contradictions(path, angle=60)
+
+
 def archive(folder: pathlib.Path) -> pathlib.Path:
     """A copy of a small part of what is published, with a manifest of its own."""
     manifest = json.loads((ROOT / "certificates/manifest.json").read_text())

@@ -155,6 +155,7 @@ CASES: dict[str, Callable[[], Any]] = {
         viewcert.at_cameras(SMALL, _places(viewcert.Graph(SMALL)))
     ).rank,
     "check_intrinsics": lambda: viewcert.check_intrinsics(_intrinsics(SMALL)).rank,
+    "contradictions": lambda: viewcert.contradictions(_database()).report().splitlines()[0],
     "explain": lambda: viewcert.explain(_strip(), 17).components,
     "export": lambda: viewcert.export(_strip(), tempfile.mkdtemp(dir=_FOLDER)).components,
     "from_database": lambda: viewcert.from_database(_database()).sha256,

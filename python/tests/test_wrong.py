@@ -97,6 +97,7 @@ def calls() -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
         "check_all": {"path": _archive()},
         "check_at_cameras": {"certificate": there.certificate(), "graph": verdict, "cameras": PLACES},
         "check_intrinsics": {"certificate": known.certificate(), "graph": PAIRS, "classes": {"a": "known"}},
+        "contradictions": {"path": _file(), "angle": 10, "certificate": tempfile.mktemp()},
         "explain": {**of_verdict, "node": "a"},
         "export": {**of_verdict, "folder": tempfile.mkdtemp()},
         "from_database": {"path": _file()},

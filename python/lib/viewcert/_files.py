@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Dict, List, Optional, Sequence
 
 from . import _native
 from ._answers import of_native
-from ._arguments import listed, one_of, path_of, taking
+from ._arguments import listed, one_of, path_of, taking, whole
 from ._errors import InputError, Rejected, TooLarge
 from ._graph import Path, on_disk
 from ._limits import limits
@@ -205,6 +205,48 @@ def merge(
     return Merge(
         found["determined"], misfit["agree"], tuple(image["image"] for image in misfit["disagree"]), found, text
     )
+
+
+@dataclass(frozen=True)
+class Contradictions:
+    """How many measured motions cannot all be right, by proof."""
+
+    at_least: Annotated[int, "So many checkable pairs are off by more than the angle."]
+    at_most: Annotated[int, "So many need be."]
+    checkable: Annotated[int, "How many pairs can be checked."]
+    unchecked: Annotated[int, "How many cannot."]
+    look_at: Annotated[Tuple[Tuple[str, str], ...], "Two pairs of which one group is wrong; none without a contradiction."]
+    found: Annotated[Dict[str, Any], "What ``verify contradictions --json`` prints."] = field(repr=False)
+    _text: str = field(repr=False)
+
+    def report(self) -> str:
+        """What ``verify contradictions`` prints."""
+        return self._text
+
+
+def contradictions(
+    path: Union[Path, pycolmap.Database], *, angle: int = 10, certificate: Optional[Path] = None
+) -> Contradictions:
+    """Proves that so many measured motions of pairs cannot all be right. It never says which.
+
+    Parameters
+    ----------
+    path : str, path or pycolmap.Database
+        A database of COLMAP, a pose graph of g2o, or relative poses with 9 or 14 fields a line.
+    angle : int
+        A motion is off if its rotation is, by more than so many degrees, 1 to 59.
+    certificate : str or path, optional
+        Where the proof goes; ``verify check`` verifies it.
+    """
+    theta = whole("angle", angle, 1, 59)
+    target = None if certificate is None else path_of("certificate", certificate)
+    with on_disk(path) as (place, name):
+        said, text = _native.contradictions(place, theta, target)
+    if name is not None:
+        said, text = (words.replace(place, name) for words in (said, text))
+    found = json.loads(said)
+    counts = (found[count] for count in ("at_least", "at_most", "checkable", "unchecked"))
+    return Contradictions(*counts, tuple((*pair["images"],) for pair in found["look_at"]), found, text)
 
 
 @dataclass(frozen=True)

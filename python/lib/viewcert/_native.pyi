@@ -32,6 +32,7 @@ __all__ = [
     "check_at_cameras",
     "check_intrinsics",
     "component_of_pairs",
+    "contradictions",
     "decide",
     "decide_all",
     "drawing",
@@ -346,6 +347,9 @@ class Archive:
     def skipped(self) -> list[tuple[str, str]]: ...
 
 def check_all(path: str | os.PathLike[str]) -> Archive: ...
+def contradictions(
+    path: str | os.PathLike[str], angle: int, certificate: str | os.PathLike[str] | None
+) -> tuple[str, str]: ...
 def lists(
     graph: str | os.PathLike[str], files: list[str], reading: dict[str, Any]
 ) -> tuple[str, str]: ...

@@ -17,7 +17,10 @@ from ._catalog import Entry, catalog, from_label, label
 from ._check import Verified, check
 from ._errors import Error, InputError, NoteWarning, Rejected, TooLarge, Undecided
 from ._errors import answering as _answering
-from ._files import Archive, ListedImages, Lists, Merge, NotVerified, Overview, check_all, lists, merge, overview
+from ._files import (
+    Archive, Contradictions, ListedImages, Lists, Merge, NotVerified, Overview, check_all, contradictions, lists, merge,
+    overview,
+)
 from ._graph import Graph, from_database, read, tracks_from_database, tracks_from_reconstruction
 from ._incremental import Growth, Verifier
 from ._intrinsics import Intrinsics, Prior, Priors, VerifiedIntrinsics, check_intrinsics, intrinsics
@@ -30,16 +33,16 @@ from ._verdict import BaseLines, Joint, Planar, Solutions, Verdict, verify
 from ._witness import Witness, fundamental_matrix, witness
 
 __all__ = [
-    "Archive", "AtCameras", "Audit", "BaseLines", "Break", "Change", "Entry", "Error", "ExactMatrix", "Explanation",
-    "Export", "FloatRuling", "Graph", "Growth", "Implied", "InputError", "Intrinsics", "Joint", "ListedImages", "Lists",
-    "Mended", "Models", "NotVerified", "NoteWarning", "Outside", "Overview", "Planar", "Prior", "Priors",
-    "Rejected", "Ruling", "SingularValue", "Solutions", "Special", "Suggestion", "TooLarge", "Undecided", "Unused",
-    "Verdict", "Verified", "VerifiedAtCameras", "VerifiedIntrinsics", "Verifier", "Weak", "Witness", "__version__",
-    "at_cameras", "audit", "audit_claims", "catalog", "check", "check_all", "check_at_cameras", "check_intrinsics",
-    "examples", "explain", "export", "from_database", "from_label", "fundamental_matrix", "implied", "intrinsics",
-    "label", "limits", "lists", "mend", "merge", "models", "overview", "read", "redundant", "rigidity_matrix",
-    "suggest", "surplus", "tracks_from_database", "tracks_from_reconstruction", "verify", "verify_all", "weak",
-    "witness",
+    "Archive", "AtCameras", "Audit", "BaseLines", "Break", "Change", "Contradictions", "Entry", "Error", "ExactMatrix",
+    "Explanation", "Export", "FloatRuling", "Graph", "Growth", "Implied", "InputError", "Intrinsics", "Joint",
+    "ListedImages", "Lists", "Mended", "Models", "NotVerified", "NoteWarning", "Outside", "Overview", "Planar",
+    "Prior", "Priors", "Rejected", "Ruling", "SingularValue", "Solutions", "Special", "Suggestion", "TooLarge",
+    "Undecided", "Unused", "Verdict", "Verified", "VerifiedAtCameras", "VerifiedIntrinsics", "Verifier", "Weak",
+    "Witness", "__version__", "at_cameras", "audit", "audit_claims", "catalog", "check", "check_all",
+    "check_at_cameras", "check_intrinsics", "contradictions", "examples", "explain", "export", "from_database",
+    "from_label", "fundamental_matrix", "implied", "intrinsics", "label", "limits", "lists", "mend", "merge", "models",
+    "overview", "read", "redundant", "rigidity_matrix", "suggest", "surplus", "tracks_from_database",
+    "tracks_from_reconstruction", "verify", "verify_all", "weak", "witness",
 ]
 
 for _name in __all__:
