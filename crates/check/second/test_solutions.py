@@ -348,7 +348,7 @@ class Costs(Case):
         # Ranks of 4096 columns.
         self.too_large(10**8, upper=upper([wide]))
         points = [{"values": ["1", str(k)], "steps": []} for k in range(4000)]
-        points = {**POINTS, "bounds": [63, 63], "points": points}
+        points = {**POINTS, "bounds": [63, 63], "minors": [], "points": points}
         self.too_large(10**8, upper=upper(points=points))
         for parts in ({"upper": upper([LINEAR])}, {"upper": upper([SUPPORT])}, {"upper": upper(points=POINTS)}):
             self.too_large(1000, **parts)
