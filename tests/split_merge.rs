@@ -341,7 +341,7 @@ fn a_rig_holds_what_it_places() {
         let [mut frames, mut images] = [String::new(), String::new()];
         let features = fs::read_to_string(path.join("images.txt")).unwrap();
         let features: Vec<&str> = features.lines().skip(2).step_by(2).collect();
-        for k in 0..8 {
+        for (k, features) in features.iter().enumerate().take(8) {
             let (frame, right) = (k % 4, k / 4);
             let translation: Vec<f64> = place(frame)
                 .split(' ')
@@ -357,7 +357,7 @@ fn a_rig_holds_what_it_places() {
                 "{} {q} {x} {y} {z} {} {k}.jpg\n{}\n",
                 k + 1,
                 right + 1,
-                features[k]
+                features
             );
             if right == 0 {
                 let data = format!("2 CAMERA 1 {} CAMERA 2 {}", k + 1, k + 5);

@@ -11,6 +11,9 @@ use viewcert::{Model, Options, VerdictError};
 #[pyclass(frozen, module = "viewcert._native")]
 pub(crate) struct Growing(Arc<Mutex<Verifier>>);
 
+/// The nodes of a component that has grown, and those of the components that are part of it now.
+type Growth = (Vec<u32>, Vec<Vec<u32>>);
+
 impl Growing {
     fn verifier(&self) -> MutexGuard<'_, Verifier> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
@@ -73,7 +76,7 @@ impl Growing {
         self.ask(py, move |verifier| verifier.same_component(a, b))
     }
 
-    fn changed(&self, py: Python<'_>) -> PyResult<Vec<(Vec<u32>, Vec<Vec<u32>>)>> {
+    fn changed(&self, py: Python<'_>) -> PyResult<Vec<Growth>> {
         let changes = self.ask(py, Verifier::changed)?;
         Ok(changes
             .into_iter()

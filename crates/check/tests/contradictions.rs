@@ -41,8 +41,11 @@ fn check(document: &Value, database: Option<&Database>) -> Result<VerifiedContra
     checked.map_err(|failure| failure.to_string())
 }
 
+/// A reason, and a change of something that gives it.
+type Case<'a, T> = (&'a str, fn(&mut T));
+
 /// Each change is rejected for its reason.
-fn all_rejected(document: &Value, database: Option<&Database>, cases: &[(&str, fn(&mut Value))]) {
+fn all_rejected(document: &Value, database: Option<&Database>, cases: &[Case<Value>]) {
     for (reason, change) in cases {
         let mut changed = document.clone();
         change(&mut changed);
@@ -308,7 +311,7 @@ fn qvec_stands_for_e_in_configuration_2_only() {
 
 #[test]
 fn rows_that_are_no_table_are_refused() {
-    let cases: [(&str, fn(&mut [Vec<Row>; 4])); 4] = [
+    let cases: [Case<[Vec<Row>; 4]>; 4] = [
         ("one name", |tables| tables[1][1].1[0] = b"1.jpg".to_vec()),
         ("no UTF-8", |tables| tables[1][1].1[0] = vec![255]),
         ("there twice", |tables| tables[3].push(tables[3][0].clone())),
