@@ -48,6 +48,8 @@ def faults(wheel: pathlib.Path) -> List[str]:
                 found.append(f"{name} does not list {sorted(EXPECTED - listed)}")
     if "abi3" not in wheel.name:
         found.append("it is for one version of Python only")
+    if "linux" in wheel.name and "manylinux" not in wheel.name:
+        found.append("it asks for more than Linux distributions have")
     return found
 
 

@@ -39,13 +39,11 @@ class Suggestion(Generic[N]):
     matches: Annotated[Optional[Tuple[int, ...]], "How many matches."]
     tried: Annotated[Optional[Tuple[str, ...]],
         "What has become of matching each pair so far, as far as a database knows: ``'left-out'``, "
-        "``'not-verified'``, ``'not-tried'`` or ``'used'``.",
-    ]
+        "``'not-verified'``, ``'not-tried'`` or ``'used'``."]
     why: Annotated[Tuple[str, ...], "Why each pair is worth trying, in words: a guess."]
     frames: Annotated[int, "How many frames of rigs that no point holds to anything become part of it as well."] = 0
     also: Annotated[Tuple[str, ...],
-        "Further images at the places of the two, to be matched as well: of frames that are one camera.",
-    ] = ()
+        "Further images at the places of the two, to be matched as well: of frames that are one camera."] = ()
 
     def _row(self) -> List[str]:
         pairs = ", ".join(f"{a} - {b}" for a, b in self.pairs)
@@ -81,16 +79,14 @@ class Explanation(Generic[N]):
 
     node: Annotated[N, "The node."]
     components: Annotated[Tuple[int, ...],
-        "The components of more than a pair that hold it, as places in `Verdict.components`.",
-    ]
+        "The components of more than a pair that hold it, as places in `Verdict.components`."]
     pairs_inside: Annotated[int, "How many of its pairs lie in these."]
     pairs_outside: Annotated[Tuple[Outside[N], ...], "Its other pairs."]
     unused: Annotated[Tuple[Unused[N], ...], "Pairs of the database that were not used."]
     suggestions: Annotated[Tuple[Suggestion[N], ...], "What would help to match."]
     sees: Annotated[Tuple[Tuple[int, int], ...],
         "Of a graph of cameras and points: components, as places in `Verdict.components`, and how many points of "
-        "each it sees. An incremental mapper wants 30 to add an image.",
-    ] = ()
+        "each it sees. An incremental mapper wants 30 to add an image."] = ()
 
 
 @dataclass(frozen=True)

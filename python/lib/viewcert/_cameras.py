@@ -82,8 +82,7 @@ class FloatRuling:
     ruling: Annotated[RulingWord, "What came of it."]
     reason: Annotated[str, "Why, in words."]
     sigma: Annotated[Optional[Tuple[str, str]],
-        "Two decimals between which the singular value is, if the row claims one.",
-    ]
+        "Two decimals between which the singular value is, if the row claims one."]
     text: Annotated[str, "All of it in words."] = field(repr=False)
 
     @staticmethod
@@ -100,8 +99,7 @@ class AtCameras:
     determined: Annotated[bool, "Whether the cameras are determined there. That they are is proved."]
     means: Annotated[str,
         "What that says of the cameras, in words: that they are the only ones, that they are an isolated solution, "
-        "that they have a motion of first order, or that there are infinitely many.",
-    ]
+        "that they have a motion of first order, or that there are infinitely many."]
     degenerate: Annotated[bool, "Whether the rank is smaller than that of cameras in general position."]
     strength: Annotated[Strength, "How strong the rank is."]
     error_log2: Annotated[Optional[int], "The chance of an error is at most two to this power."]
@@ -109,13 +107,11 @@ class AtCameras:
     required: Annotated[int, "The rank that determines."]
     motions: Annotated[int, "The dimension of the motions that leave all fundamental matrices as they are."]
     components: Annotated[Tuple[frozenset[Node], ...],
-        "Nodes of the maximal parts that are rigid at these cameras, the largest first.",
-    ]
+        "Nodes of the maximal parts that are rigid at these cameras, the largest first."]
     components_strength: Annotated[Strength, "How strong these are."]
     special: Annotated[Tuple[Special, ...],
         "Cameras at one place, on one line or in one plane, the largest sets of each kind first. Lines are looked "
-        "for among up to 2,000 places, planes among up to 64; one that holds all is always found.",
-    ]
+        "for among up to 2,000 places, planes among up to 64; one that holds all is always found."]
     centres_sha256: Annotated[str, "The hash of the centres, which certificates name."]
     _verdict: Verdict[Any] = field(repr=False, compare=False)
     _cameras: Tuple[Tuple[str, ...], int] = field(repr=False, compare=False)

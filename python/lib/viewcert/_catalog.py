@@ -26,8 +26,7 @@ class Entry:
     hub: Annotated[bool, "Whether the refutation takes a hub."]
     solutions: Annotated[str,
         "How many solutions there are, or bounds as in ``'1-2'`` and ``'1-'``; empty if there are infinitely many. "
-        "Without ``solutions=True`` what bodies show: ``'1'`` or ``'1-'``.",
-    ]
+        "Without ``solutions=True`` what bodies show: ``'1'`` or ``'1-'``."]
     certificate: Annotated[bytes, "For :func:`check`."] = field(repr=False)
 
 

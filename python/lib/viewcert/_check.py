@@ -32,8 +32,7 @@ class Verified(OfGraph):
 
     value: Annotated[Value, "``'solvable'``, ``'finite-solvable'`` or ``'not-finite-solvable'``."]
     strength: Annotated[Strength,
-        "``'proof'``, or ``'error-bound'``: wrong with probability at most ``2**error_log2``.",
-    ]
+        "``'proof'``, or ``'error-bound'``: wrong with probability at most ``2**error_log2``."]
     error_log2: Annotated[Optional[int], "The exponent of the error bound."]
     rank: Annotated[int, "The generic rank."]
     components: Annotated[int, "How many there are."]
@@ -41,8 +40,7 @@ class Verified(OfGraph):
     displacements: Annotated[int, "Between how many sets of nodes displacements are taken for given."]
     base_lines: Annotated[Optional[BaseLinesValue], "What frames add where base lines are unknown."]
     own_frame: Annotated[Optional[Value],
-        "What is determined beside displacements in a frame of their own; all else is without them.",
-    ]
+        "What is determined beside displacements in a frame of their own; all else is without them."]
     model: Annotated[Decided, "The question."]
 
     def __repr__(self) -> str:

@@ -34,8 +34,7 @@ class Overview:
     path: Annotated[str, "The input; of one that is open in pycolmap ``'database'`` or ``'reconstruction'``."]
     found: Annotated[Dict[str, Any],
         "What ``verify overview --json`` prints: ``pairs`` and ``tracks`` with their verdicts, ``mappers`` with "
-        "what COLMAP's mappers will make of it, ``next`` with commands.",
-    ] = field(repr=False)
+        "what COLMAP's mappers will make of it, ``next`` with commands."] = field(repr=False)
     _reading: Dict[str, Any] = field(repr=False)
     _said: Dict[str, str] = field(repr=False, compare=False)
 
@@ -162,8 +161,7 @@ class Merge:
 
     determined: Annotated[bool, "Whether what they share leaves nothing free between them, if every pair is right."]
     agree: Annotated[Optional[bool],
-        "Whether it fits, as measured in floating point; None if they share too little to contradict each other.",
-    ]
+        "Whether it fits, as measured in floating point; None if they share too little to contradict each other."]
     disagree: Annotated[Tuple[str, ...], "The images that the two have at different places, the worst first."]
     found: Annotated[Dict[str, Any], "What ``verify merge --json`` prints."] = field(repr=False)
     _text: str = field(repr=False)
@@ -269,15 +267,12 @@ class Archive:
     verdicts: Annotated[Dict[str, int], "How many prove each verdict."]
     supposing: Annotated[int,
         "How many suppose anything besides their graphs (known parts, displacements, frames of rigs, cameras, "
-        "classes of cameras); :func:`check` says of each what.",
-    ]
+        "classes of cameras); :func:`check` says of each what."]
     complete: Annotated[Optional[bool],
-        "Whether all is there, and nothing else, that the manifests of folders name; None if there are none.",
-    ]
+        "Whether all is there, and nothing else, that the manifests of folders name; None if there are none."]
     manifest: Annotated[Tuple[str, ...], "What there is to say of that, in words."]
     skipped: Annotated[Tuple[Tuple[str, str], ...],
-        "Files that are neither certificates nor in a manifest, and why they are not looked into.",
-    ]
+        "Files that are neither certificates nor in a manifest, and why they are not looked into."]
 
     @property
     def is_good(self) -> bool:

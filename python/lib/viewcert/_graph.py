@@ -242,8 +242,9 @@ class Graph(Frozen, Generic[N]):
             graph.add_edges_from((a, b, {"inliers": count}) for (a, b), count in zip(self.pairs, counts))
         return graph
 
-    def _repr_svg_(self) -> str:
-        return self._native.picture()
+    def _repr_svg_(self) -> Optional[str]:
+        # A notebook that gets none shows the line.
+        return self._native.picture() if len(self) <= 1000 else None
 
     def __repr__(self) -> str:
         native = self._native

@@ -25,11 +25,9 @@ class VerifiedIntrinsics(OfGraph):
     rank: Annotated[int, "What the generic rank is not below."]
     rank_at_most: Annotated[int, "What it is not above."]
     components: Annotated[Optional[List[List[int]]],
-        "Metric components, as positions in the `graph.nodes` of a verdict; None if bounds do not meet.",
-    ]
+        "Metric components, as positions in the `graph.nodes` of a verdict; None if bounds do not meet."]
     not_determined: Annotated[Optional[List[int]],
-        "The positions of the nodes whose intrinsics are not determined; None if bounds do not meet.",
-    ]
+        "The positions of the nodes whose intrinsics are not determined; None if bounds do not meet."]
     classes: Annotated[List[Tuple[int, Class]], "How many cameras are of which class."]
     classes_sha256: Annotated[str, "The hash of the classes."]
 
@@ -48,11 +46,9 @@ class Prior:
     """What is determined once one camera more is calibrated."""
 
     nodes: Annotated[frozenset[Node],
-        "The nodes of the sensor that is calibrated: one, unless several images are of one camera.",
-    ]
+        "The nodes of the sensor that is calibrated: one, unless several images are of one camera."]
     unknown: Annotated[Class,
-        "What is not known of it before, as a class: ``'focal'``, ``'focal+point'`` or ``'unknown'``.",
-    ]
+        "What is not known of it before, as a class: ``'focal'``, ``'focal+point'`` or ``'unknown'``."]
     metric: Annotated[bool, "Whether all cameras are determined then; it is proved if it is said."]
     proved: Annotated[bool, "Whether the bounds of the rank meet then, so that all of this is proved."]
     rank: Annotated[int, "What the generic rank is not below then."]
@@ -69,14 +65,12 @@ class Priors:
 
     each: Annotated[Tuple[Prior, ...],
         "The best first: a metric graph, most intrinsics determined, the largest metric component; of equally good "
-        "ones those with the fewest unknowns.",
-    ]
+        "ones those with the fewest unknowns."]
     best: Annotated[int, "How many are as good as the first, itself included."]
     sensors: Annotated[int, "How many there are: sensors with a pair of which the intrinsics are not determined."]
     if_all_known: Annotated[str,
         "``'metric'``, ``'not-metric'`` or ``'open'``: what the graph is if all intrinsics are known. If that is "
-        "``'not-metric'``, pairs are missing, and no priors make it metric.",
-    ]
+        "``'not-metric'``, pairs are missing, and no priors make it metric."]
 
 
 @dataclass(frozen=True)
@@ -89,13 +83,11 @@ class Intrinsics:
     rank_at_most: Annotated[int, "What it is not above."]
     rank_required: Annotated[int, "The rank of a metric graph."]
     components: Annotated[Tuple[frozenset[Node], ...],
-        "Nodes of pairs that are metric against each other, the largest component first.",
-    ]
+        "Nodes of pairs that are metric against each other, the largest component first."]
     other_pairs: Annotated[int, "How many pairs are in none of them."]
     determined: Annotated[Dict[Node, bool],
         "For each node whether its intrinsics are known or determined, as :func:`networkx.set_node_attributes` "
-        "takes it.",
-    ]
+        "takes it."]
     _verdict: Verdict[Any] = field(repr=False, compare=False)
     _classes: Tuple[str, ...] = field(repr=False, compare=False)
     _sensors: Tuple[int, ...] = field(repr=False, compare=False)

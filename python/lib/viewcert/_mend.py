@@ -30,13 +30,11 @@ class Mended:
     path: Annotated[str, "The copy of the database, with the new pairs."]
     determined: Annotated[bool, "Whether its tracks determine all images, if every pair is right."]
     tried: Annotated[Dict[Tuple[str, str], int],
-        "How many inliers each pair has that was matched, by the names of its images, in order.",
-    ]
+        "How many inliers each pair has that was matched, by the names of its images, in order."]
     before: Annotated[Tuple[int, ...], "How many images each part of the tracks had, the largest first."]
     after: Annotated[Tuple[int, ...], "How many each has now."]
     photograph: Annotated[Optional[List[List[str]]],
-        "Two groups of images that need a photograph between them: all that could join them was matched.",
-    ]
+        "Two groups of images that need a photograph between them: all that could join them was matched."]
 
     def __str__(self) -> str:
         held = sum(inliers >= 15 for inliers in self.tried.values())  # What COLMAP's mappers ask of a pair.

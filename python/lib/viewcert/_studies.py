@@ -54,8 +54,7 @@ class Models(_Said, Generic[N]):
     """The verdicts of all models on one graph, side by side: ``models["affine"]``."""
 
     verdicts: Annotated[Tuple[Verdict[N], ...],
-        "Affine, projective, calibrated: each model determines no more than the next.",
-    ]
+        "Affine, projective, calibrated: each model determines no more than the next."]
     changes: Annotated[Tuple[Change[N], ...], "What each model joins that the one before did not."]
 
     def __getitem__(self, model: Decided) -> Verdict[N]:
@@ -128,8 +127,7 @@ class Audit(_Said):
     agree: Annotated[bool, "Whether both sides agree at every draw, and on the number of components at the first."]
     verdict: Annotated[Verdict[Any], "The exact side."]
     float_value: Annotated[Literal["solvable", "not-solvable", "undecided"],
-        "What floating point says at the first draw: that of finite solvability.",
-    ]
+        "What floating point says at the first draw: that of finite solvability."]
     smallest_eigenvalue: Annotated[float, "The smallest eigenvalue of J^T J."]
     smallest_singular_value: Annotated[float, "The smallest singular value of J."]
     margin_decades: Annotated[Optional[float], "How many powers of ten lie between the eigenvalue and the tolerance."]

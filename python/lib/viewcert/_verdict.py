@@ -47,8 +47,7 @@ class Joint(Generic[N]):
     nodes: Annotated[Tuple[N, ...], "The nodes where they touch."]
     pairs: Annotated[Tuple[Tuple[N, N], ...], "Pairs that lead from the first to the second."]
     through: Annotated[Tuple[Tuple[N, N, N], ...],
-        "Nodes in neither, with a pair to each: between the ends of these pairs.",
-    ]
+        "Nodes in neither, with a pair to each: between the ends of these pairs."]
     inliers: Annotated[Optional[Tuple[int, ...]], "Of each pair, in a database."]
     freedom: Annotated[int, "How many degrees of freedom the joint leaves."]
     meaning: Annotated[str, "The same in words."]
@@ -66,8 +65,7 @@ class Solutions:
     at_most: Annotated[Optional[int], "An upper bound, if one is known."]
     strength: Annotated[Strength, "How strong the bounds are: ``'proof'``, or ``'error-bound'``."]
     full_may_tell_more: Annotated[bool,
-        "Whether ``solutions='full'``, which takes about a second more, often settles what is open.",
-    ] = False
+        "Whether ``solutions='full'``, which takes about a second more, often settles what is open."] = False
 
     @property
     def exactly(self) -> Optional[int]:
@@ -80,8 +78,7 @@ class Planar:
     """What a graph determines if all centres lie in one plane. All of it is proved."""
 
     value: Annotated[Literal["solvable", "not-finite-solvable"],
-        "``'solvable'`` (the cameras are unique, in all models) or ``'not-finite-solvable'``.",
-    ]
+        "``'solvable'`` (the cameras are unique, in all models) or ``'not-finite-solvable'``."]
     rank: Annotated[int, "The rank for centres that are generic in a plane."]
     required: Annotated[int, "The rank without which there are infinitely many sets of cameras."]
 
@@ -93,8 +90,7 @@ class BaseLines:
     """
 
     value: Annotated[BaseLinesValue,
-        "``'solvable'`` (all positions are unique) or ``'not-finite-solvable'``, both proved; or ``'open'``.",
-    ]
+        "``'solvable'`` (all positions are unique) or ``'not-finite-solvable'``, both proved; or ``'open'``."]
     frames: Annotated[int, "Frames of two images or more."]
     unknown: Annotated[int, "Base lines that are not known."]
     rank: Annotated[int, "The rank at drawn positions, which the generic rank is not below."]
@@ -103,18 +99,14 @@ class BaseLines:
     parts: Annotated[int, "How many parts move against each other: so many at least, where the rank is proved."]
     parts_proved: Annotated[bool, "Whether there are just so many."]
     about_one_axis: Annotated[bool,
-        "Whether all positions are unique too if all frames turn about one axis, as a vehicle's do.",
-    ]
+        "Whether all positions are unique too if all frames turn about one axis, as a vehicle's do."]
     without_turns: Annotated[bool,
-        "Whether they are if frames do not turn against each other, as those of a drone on one line.",
-    ]
+        "Whether they are if frames do not turn against each other, as those of a drone on one line."]
     groups_not_turned: Annotated[Optional[int],
         "How many groups of images neither pairs nor known poses turn against each other, if there are several: the "
-        "value is ``'open'`` then.",
-    ] = None
+        "value is ``'open'`` then."] = None
     condition: Annotated[Optional[str],
-        "What ``'solvable'`` rests on: that every pair is right, and frames turn.",
-    ] = None
+        "What ``'solvable'`` rests on: that every pair is right, and frames turn."] = None
 
 
 class Verdict(Frozen, Generic[N]):
@@ -659,7 +651,7 @@ def verify(
     Parameters
     ----------
     graph
-        A graph of networkx or rustworkx (there nodes are its indices), a sparse adjacency matrix
+        An undirected graph of networkx or rustworkx (there nodes are its indices), a sparse adjacency matrix
         of scipy (nodes are its rows), an array of integers or texts of shape (m, 2), or (2, m) as an
         ``edge_index`` (nodes are what occurs in it; one of shape (2, 2) could be both), a data frame of pandas or polars with two columns (or ``source`` and
         ``target``), an iterable of pairs of hashable nodes, which dicts of attributes may follow,
