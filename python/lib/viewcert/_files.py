@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Annotated, Any, Dict, List, Optional, Sequence, Tuple, Union, get_args
 
 from . import _native
-from ._answers import of_native
+from ._answers import of_native, of_said
 from ._arguments import listed, one_of, path_of, taking, whole
 from ._errors import InputError, Rejected, TooLarge
 from ._graph import Path, on_disk
@@ -243,8 +243,8 @@ def contradictions(
     if name is not None:
         said, text = (words.replace(place, name) for words in (said, text))
     found = json.loads(said)
-    counts = (found[count] for count in ("at_least", "at_most", "checkable", "unchecked"))
-    return Contradictions(*counts, tuple((*pair["images"],) for pair in found["look_at"]), found, text)
+    look_at = tuple((*pair["images"],) for pair in found["look_at"])
+    return of_said(Contradictions, found, look_at=look_at, found=found, _text=text)
 
 
 @dataclass(frozen=True)
