@@ -7,7 +7,7 @@ use super::question::{GRAPHS, QuestionArguments};
 use anyhow::Result;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
-use viewcert_advice::{Lost, Request, Weak};
+use viewcert_advice::{Request, Weak};
 
 /// What to do about which graphs. Joints between components are listed in any case.
 #[derive(Args)]
@@ -37,10 +37,6 @@ pub(super) struct AdviceArguments {
     /// other: an error in what nothing checks cannot be seen by anyone. Calibrated: of its direction alone.
     #[arg(long)]
     surplus: bool,
-    /// Say whether every component stays finite solvable whichever pair is lost (`images:1`: image), and
-    /// what breaks it.
-    #[arg(long, value_name = "1")]
-    redundant: Option<Lost>,
     /// Count the pairs that are determined though they are not in the graph, up to finitely many values if it
     /// is not unique, and list N of them at most [default: 1000].
     #[arg(long, value_name = "N", num_args = 0..=1, require_equals = true)]
@@ -95,7 +91,6 @@ impl AdviceArguments {
                 WeakName::Images => Weak::Images,
             }),
             surplus: self.surplus,
-            redundant: self.redundant,
             implied: self.implied,
             suggest: self.suggest,
             explain: self.explain.clone(),

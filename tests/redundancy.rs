@@ -74,42 +74,25 @@ fn what_may_be_lost() {
                 .map(move |j| format!("{i} {j}\n"))
         })
         .collect();
-    for lost in ["1", "images:1"] {
-        let line = report(complete.as_bytes(), &["--redundant", lost]);
-        let of = if lost.starts_with('i') {
-            "images"
-        } else {
-            "pairs"
-        };
-        let expected =
-            json!({ "of": of, "lost": 1, "kept": "finite-solvable", "stay": 1, "broken": [] });
-        assert_eq!(line["redundant"], expected);
+    for weak in ["--weak", "--weak=images"] {
+        let line = report(complete.as_bytes(), &[weak]);
+        assert_eq!(line["weak"]["items"], json!([]));
+        assert_eq!(line["weak"]["kept"], "finite-solvable");
     }
-    let said = text(complete.as_bytes(), &["--redundant", "1"]);
-    let expected = "  redundant   1 component: finite solvable, if not unique, whichever pair is lost (proved)\n";
-    assert!(said.contains(expected), "{said}");
     // One pair of the image with two, and of the triangle.
-    let line = report(GRAPH, &["--redundant", "1"]);
-    let broken = &line["redundant"]["broken"];
-    assert_eq!(broken[0]["without"], json!([["a", "two"]]));
-    assert_eq!(broken[1]["without"], json!([["c", "p"]]));
-    assert_eq!(line["redundant"]["stay"], 0);
-    let said = text(GRAPH, &["--redundant", "images:1"]);
-    assert!(
-        said.contains("component 1 falls apart without a\n"),
-        "{said}"
-    );
+    let first = |graph: &[u8], weak: &str, component: u32| {
+        let line = report(graph, &[weak]);
+        let items = line["weak"]["items"].as_array().unwrap().clone();
+        let mut items = items.into_iter();
+        let item = items.find(|item| item["component"] == component).unwrap();
+        item["images"].clone()
+    };
+    assert_eq!(first(GRAPH, "--weak", 1), json!(["a", "two"]));
+    assert_eq!(first(GRAPH, "--weak", 2), json!(["c", "p"]));
+    assert_eq!(first(GRAPH, "--weak=images", 1), json!(["a"]));
     // Four images that are not all pairs: one is enough.
-    let line = report(b"0 1\n0 2\n0 3\n1 2\n1 3\n", &["--redundant", "images:1"]);
-    assert_eq!(line["redundant"]["broken"][0]["without"], json!([["0"]]));
-    let run = verify_with(GRAPH, &["advise", "-", "--redundant", "2"]);
-    assert_eq!(run.code, 2);
-    assert!(
-        run.err
-            .contains("1 pair, or images:1; of two, leave out each pair in turn"),
-        "{}",
-        run.err
-    );
+    let four = b"0 1\n0 2\n0 3\n1 2\n1 3\n";
+    assert_eq!(first(four, "--weak=images", 1), json!(["0"]));
 }
 
 /// Both diagonals of the 4-cycle that psi holds, and no component has them.
@@ -201,40 +184,24 @@ fn what_is_kept_is_finite_solvability() {
     assert_eq!(decided(&graph)["solutions"]["exactly"], 2);
     graph += "0 1\n";
     assert_eq!(decided(&graph)["verdict"], "solvable");
-    let options = ["--weak", "--redundant", "1", "--surplus"];
+    let options = ["--weak", "--surplus"];
     let line = report(graph.as_bytes(), &options);
     assert_eq!(line["weak"]["items"], json!([]));
-    for asked in ["weak", "redundant"] {
-        assert_eq!(line[asked]["kept"], "finite-solvable");
-    }
+    assert_eq!(line["weak"]["kept"], "finite-solvable");
     let said = text(graph.as_bytes(), &options);
     for words in [
         "weak        none found\n    without any other one it stays finite solvable, if not unique\n",
-        "redundant   1 component: finite solvable, if not unique, whichever pair is lost (proved)\n",
         "surplus     73 pairs checked by the rest in all 7 equations if every other pair is right (proved)\n    by the rest each has finitely many values",
     ] {
         assert!(said.contains(words), "{words}{said}");
     }
     let run = verify_with(
         graph.as_bytes(),
-        &[
-            "advise",
-            "-",
-            "--weak",
-            "--redundant",
-            "1",
-            "--model",
-            "affine",
-        ],
+        &["advise", "-", "--weak", "--model", "affine"],
     );
     assert!(!run.out.contains("if not unique"), "{}", run.out);
-    for asked in ["weak", "redundant"] {
-        let line = report(
-            graph.as_bytes(),
-            &["--weak", "--redundant", "1", "--model", "calibrated"],
-        );
-        assert_eq!(line[asked]["kept"], "solvable");
-    }
+    let line = report(graph.as_bytes(), &["--weak", "--model", "calibrated"]);
+    assert_eq!(line["weak"]["kept"], "solvable");
 }
 
 /// A pair of a cycle of four calibrated cameras adds rank 2 of the 5 of an essential matrix (an independent rank, with
@@ -281,15 +248,7 @@ fn observations_by_hand() {
     }
     lines += "0 4 0.5 0.5\n1 4 0.5 0.5\n";
     let problem = format!("3 5 14\n{lines}{}", "0.5\n".repeat(3 * 9 + 5 * 3));
-    let asked = [
-        "--tracks",
-        "--min-views",
-        "2",
-        "--surplus",
-        "--implied",
-        "--redundant",
-        "1",
-    ];
+    let asked = ["--tracks", "--min-views", "2", "--surplus", "--implied"];
     let line = report(problem.as_bytes(), &asked);
     assert_eq!(line["surplus"]["of"], "observations");
     // 4 equations for the 3 of the point: one of them is checked.
@@ -298,8 +257,6 @@ fn observations_by_hand() {
     assert!(items.iter().all(|item| item["surplus"] == 1));
     assert_eq!(line["surplus"]["checked"], 12);
     assert_eq!(line["implied"]["count"], 3);
-    assert_eq!(line["redundant"]["of"], "observations");
-    assert_eq!(line["redundant"]["broken"].as_array().unwrap().len(), 1);
     let said = verify_with(problem.as_bytes(), &[&["advise", "-"], &asked[..]].concat()).out;
     assert!(said.contains("3 pairs of cameras determined"), "{said}");
 }

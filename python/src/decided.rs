@@ -16,7 +16,6 @@ use viewcert::linalg::prime::PrimeField;
 use viewcert::watch::Watch;
 use viewcert::{Arithmetic, CountSolutions, Known, Model, Options, Prime, Verdict};
 use viewcert_advice::priors::Priors;
-use viewcert_advice::redundancy::UnknownLoss;
 use viewcert_advice::{Request, Shapes, Weak};
 use viewcert_formats::{NamedGraph, NamedParts, given, with_rigs};
 use viewcert_report::Report;
@@ -479,7 +478,7 @@ impl Decided {
 
     /// What the program says: `kind` is `json`, `text` or `html`.
     #[pyo3(signature = (
-        kind, *, list_components=false, weak=None, suggest=None, write=None, explain=None, export=None, surplus=false, redundant=None, implied=None, intrinsics=None, sensors=None
+        kind, *, list_components=false, weak=None, suggest=None, write=None, explain=None, export=None, surplus=false, implied=None, intrinsics=None, sensors=None
     ))]
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn report<'py>(
@@ -493,7 +492,6 @@ impl Decided {
         explain: Option<String>,
         export: Option<PathBuf>,
         surplus: bool,
-        redundant: Option<&str>,
         implied: Option<u32>,
         intrinsics: Option<Vec<String>>,
         sensors: Option<Vec<usize>>,
@@ -514,13 +512,9 @@ impl Decided {
                 )));
             }
         };
-        let redundant = redundant.map(str::parse).transpose();
-        let redundant =
-            redundant.map_err(|why: UnknownLoss| InputError::new_err(why.to_string()))?;
         let mut request = Request {
             weak,
             surplus,
-            redundant,
             implied,
             suggest,
             write,

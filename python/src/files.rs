@@ -4,6 +4,7 @@
 use crate::decided::bytes_of;
 use crate::errors::of_any;
 use crate::graph::Reading;
+use crate::studies::{Said, said};
 use crate::work::Job;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -56,12 +57,12 @@ pub(crate) fn lists(
     graph: PathBuf,
     files: Vec<PathBuf>,
     reading: Reading,
-) -> PyResult<(String, String)> {
+) -> PyResult<Said> {
     let [options, of_tracks] = reading.options()?;
     let of_tracks_alone = reading.of_tracks_alone();
     let job = Job::new(py)?;
     let session = Session::under(job.watch());
-    let work = move || -> anyhow::Result<(String, String)> {
+    let work = move || -> anyhow::Result<Said> {
         let asked = ListsAsked {
             graph: &graph,
             files: &files,
@@ -69,12 +70,9 @@ pub(crate) fn lists(
             of_tracks,
             of_tracks_alone,
         };
-        let (mut json, mut text) = (Vec::new(), Vec::new());
         asked.of(&session, |report| {
-            report.write_json(&mut json)?;
-            Ok(report.write(&mut text)?)
-        })?;
-        Ok((String::from_utf8(json)?, String::from_utf8(text)?))
+            said(|out| report.write_json(out), |out| report.write(out))
+        })
     };
     let found = job.run(py, work)?;
     found.map_err(|error| of_any(&error))
@@ -88,22 +86,19 @@ pub(crate) fn merge(
     other: PathBuf,
     database: Option<PathBuf>,
     reading: Reading,
-) -> PyResult<(String, String)> {
+) -> PyResult<Said> {
     let [_, options] = reading.options()?;
     let job = Job::new(py)?;
     let session = Session::under(job.watch());
-    let work = move || -> anyhow::Result<(String, String)> {
+    let work = move || -> anyhow::Result<Said> {
         let asked = MergeAsked {
             models: [&one, &other],
             database: database.as_deref(),
             options,
         };
-        let (mut json, mut text) = (Vec::new(), Vec::new());
         asked.of(&session, |report| {
-            report.write_json(&mut json)?;
-            Ok(report.write(&mut text)?)
-        })?;
-        Ok((String::from_utf8(json)?, String::from_utf8(text)?))
+            said(|out| report.write_json(out), |out| report.write(out))
+        })
     };
     let found = job.run(py, work)?;
     found.map_err(|error| of_any(&error))

@@ -25,10 +25,10 @@ use viewcert_report::audit::{AtCameras as AtCamerasReport, Audit, Ruled};
 use viewcert_report::models as model_report;
 
 /// What is said for programs, as JSON, and for people.
-type Said = (String, String);
+pub(crate) type Said = (String, String);
 
 /// Both of them.
-fn said(
+pub(crate) fn said(
     json: impl FnOnce(&mut Vec<u8>) -> std::io::Result<()>,
     text: impl FnOnce(&mut Vec<u8>) -> std::io::Result<()>,
 ) -> anyhow::Result<Said> {

@@ -40,7 +40,7 @@ pub use foreseen::{Tracks, foreseen};
 pub use joints::{How, Joint, Joints, Shapes, joints};
 pub use named::Advice;
 pub use parts::{Part, Parts};
-pub use redundancy::{Break, Lost, Surplus, redundant, surplus};
+pub use redundancy::{Surplus, surplus};
 pub use request::Request;
 pub use suggest::{
     Candidate, Near, Nearness, Reason, SuggestedMatch, Suggestion, Tried, gap, suggest,

@@ -1,7 +1,7 @@
 //! What was found, in the user's names: the members of `verify --json` (docs/reconstruction.md).
 //! Components are counted from 1 here, as in the text.
 
-use crate::redundancy::{Implied, Redundant, Surpluses};
+use crate::redundancy::{Implied, Surpluses};
 use serde::Serialize;
 use viewcert_formats::NamedGraph;
 
@@ -27,9 +27,6 @@ pub struct Advice {
     /// Which pairs the rest checks.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub surplus: Option<Surpluses>,
-    /// What may be lost.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub redundant: Option<Redundant>,
     /// Pairs that are determined though never matched.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub implied: Option<Implied>,

@@ -2,7 +2,7 @@
 
 use crate::named::Advice;
 use crate::task::{Task, Weak};
-use crate::{Lost, Shapes, export, folder};
+use crate::{Shapes, export, folder};
 use anyhow::{Result, bail, ensure};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -18,8 +18,6 @@ pub struct Request {
     pub weak: Option<Weak>,
     /// How much of each pair the rest checks.
     pub surplus: bool,
-    /// What is lost, to see whether components stay.
-    pub redundant: Option<Lost>,
     /// Pairs that are determined though never matched; so many are listed at most.
     pub implied: Option<u32>,
     /// Pairs that would join components, so many at most; with tracks also how much has to come of it.
@@ -59,7 +57,6 @@ impl Request {
         let asked = [
             (self.weak.is_some(), "--weak"),
             (self.surplus, "--surplus"),
-            (self.redundant.is_some(), "--redundant"),
             (self.implied.is_some(), "--implied"),
             (self.suggest.is_some(), "--suggest"),
             (self.explain.is_some(), "--explain"),
@@ -141,9 +138,6 @@ impl Request {
         }
         if self.surplus {
             advice.surplus = Some(task.surplus()?);
-        }
-        if let Some(lost) = self.redundant {
-            advice.redundant = Some(task.redundant(lost)?);
         }
         if let Some(most) = self.implied {
             advice.implied = Some(task.implied(most as usize)?);

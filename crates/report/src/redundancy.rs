@@ -4,7 +4,7 @@ use crate::shown::{SHOWN, rest};
 use std::io::{self, Write};
 use viewcert::wording::counted;
 use viewcert_advice::Advice;
-use viewcert_advice::redundancy::{GroupsOf, Implied, Redundant, Surpluses};
+use viewcert_advice::redundancy::{GroupsOf, Implied, Surpluses};
 
 /// Writes what was asked for of it.
 ///
@@ -13,9 +13,6 @@ use viewcert_advice::redundancy::{GroupsOf, Implied, Redundant, Surpluses};
 pub(crate) fn write(out: &mut impl Write, advice: &Advice) -> io::Result<()> {
     if let Some(found) = &advice.surplus {
         surplus(out, found)?;
-    }
-    if let Some(found) = &advice.redundant {
-        redundant(out, found)?;
     }
     if let Some(found) = &advice.implied {
         implied(out, found, advice.of_tracks)?;
@@ -110,51 +107,6 @@ fn groups(out: &mut impl Write, found: &GroupsOf, of: &str) -> io::Result<()> {
         out,
         "    {groups} of {of} that check each other and nothing else{bound}; the largest has {largest}",
     )
-}
-
-fn redundant(out: &mut impl Write, found: &Redundant) -> io::Result<()> {
-    let lost = match found.of {
-        "cameras and points" => "camera or point is".to_owned(),
-        of => format!("{} is", of.trim_end_matches('s')),
-    };
-    let broken = found.broken.len();
-    let components = counted(found.stay + broken, "component");
-    if found.stay + broken == 0 {
-        return writeln!(
-            out,
-            "  redundant   nothing to lose: no component is more than a pair"
-        );
-    }
-    let kept = match found.kept {
-        "solvable" => "solvable",
-        _ => "finite solvable, if not unique,",
-    };
-    if broken == 0 {
-        return writeln!(
-            out,
-            "  redundant   {components}: {kept} whichever {lost} lost (proved)"
-        );
-    }
-    writeln!(
-        out,
-        "  redundant   {} of {components} stay {kept} whichever {lost} lost (proved)",
-        found.stay
-    )?;
-    for one in found.broken.iter().take(SHOWN) {
-        let set: Vec<String> = one.without.iter().map(|names| names.join(" ")).collect();
-        let bound = if one.strength == "proof" {
-            ""
-        } else {
-            " (error bound)"
-        };
-        writeln!(
-            out,
-            "    component {} falls apart without {}{bound}",
-            one.component,
-            set.join(" and ")
-        )?;
-    }
-    rest(out, broken, "--json lists them")
 }
 
 fn implied(out: &mut impl Write, found: &Implied, of_tracks: bool) -> io::Result<()> {

@@ -242,18 +242,12 @@ def redundant(verdict: Any, of: Lost = "pairs") -> List[Break]:
     >>> viewcert.redundant([(0, 1), (0, 2), (1, 2)])[0].without
     ((0, 1),)
     """
-    one_of("of", of, get_args(Lost))
-    verdict = _decided(verdict)
-    by_text = verdict.graph._by_text()
-    what = "1" if of == "pairs" else "images:1"
-    found = _asked(verdict, "redundant", redundant=what)
-
-    def named(texts: Sequence[str]) -> Any:
-        return tuple(by_text[text] for text in texts) if of == "pairs" else by_text[texts[0]]
-
+    first: Dict[int, Weak[Any]] = {}
+    for item in weak(verdict, of):
+        first.setdefault(item.component, item)
     return [
-        of_said(Break, one, component=one["component"] - 1, without=tuple(named(texts) for texts in one["without"]))
-        for one in found["broken"]
+        Break(component, (item.nodes,) if of == "pairs" else item.nodes, item.strength)
+        for component, item in sorted(first.items())
     ]
 
 

@@ -158,7 +158,6 @@ class Decided:
         explain: str | None = None,
         export: str | os.PathLike[str] | None = None,
         surplus: bool = False,
-        redundant: str | None = None,
         implied: int | None = None,
         intrinsics: list[str] | None = None,
         sensors: list[int] | None = None,

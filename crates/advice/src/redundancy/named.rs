@@ -1,7 +1,7 @@
 //! What a graph can notice, in the user's names.
 
-use super::{Lost, redundant, surplus};
-use crate::task::{Task, number};
+use super::surplus;
+use crate::task::Task;
 use anyhow::{Context, Result};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -59,32 +59,6 @@ pub struct Group {
     pub pairs: usize,
     /// How many images they have.
     pub images: usize,
-}
-
-/// Whether components stay whatever is lost.
-#[derive(Clone, Debug, Serialize)]
-pub struct Redundant {
-    /// What is lost: `pairs`, `images`, `observations`, `cameras and points`.
-    pub of: &'static str,
-    /// How many.
-    pub lost: u8,
-    /// What those that stay are proved to be: `finite-solvable`, if not unique, or `solvable`.
-    pub kept: &'static str,
-    /// How many components of three images and more stay, which is proved.
-    pub stay: usize,
-    /// The others.
-    pub broken: Vec<Broken>,
-}
-
-/// A component that falls apart.
-#[derive(Clone, Debug, Serialize)]
-pub struct Broken {
-    /// The component.
-    pub component: usize,
-    /// Without these: each a pair of images, or an image.
-    pub without: [Vec<String>; 1],
-    /// How strong that is: `proof` or `error-bound`.
-    pub strength: &'static str,
 }
 
 /// Pairs that are determined though they are not in the graph.
@@ -175,33 +149,6 @@ impl Task<'_> {
             larger,
             strength: found.strength.name(),
         }))
-    }
-
-    pub(crate) fn redundant(&self, lost: Lost) -> Result<Redundant> {
-        let graph = &self.input.graph;
-        let found = redundant(graph, &self.parts, lost, &self.options).context("--redundant")?;
-        let of = match (lost, self.input.cameras) {
-            (Lost::Pair, None) => "pairs",
-            (Lost::Pair, Some(_)) => "observations",
-            (Lost::Image, None) => "images",
-            (Lost::Image, Some(_)) => "cameras and points",
-        };
-        let broken = found.into_iter().map(|one| {
-            let named = |nodes: Vec<u32>| nodes.into_iter().map(|v| self.names.of(v)).collect();
-            Broken {
-                component: number(one.component),
-                without: [named(one.without)],
-                strength: one.strength.name(),
-            }
-        });
-        let broken: Vec<Broken> = broken.collect();
-        Ok(Redundant {
-            of,
-            lost: 1,
-            kept: self.kept(),
-            stay: self.parts.parts.len() - broken.len(),
-            broken,
-        })
     }
 
     pub(crate) fn implied(&self, most: usize) -> Result<Implied> {
