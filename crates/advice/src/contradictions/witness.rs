@@ -50,7 +50,7 @@ pub(super) fn one_way(web: &Web, walk: &[Step], [theta, phi]: [u32; 2]) -> Optio
                 witness: Some(witness.map(|x| (x * 4096.0).round() as i64)),
             });
         }
-        if !(margin > -1.0) {
+        if margin.is_nan() || margin <= -1.0 {
             return None;
         }
         let pull = (0.1 - margin) / (1.0 + f64::from(round) / 8.0);
