@@ -16,8 +16,7 @@ pub(super) struct AdviseArguments {
     graphs: Vec<PathBuf>,
     #[command(flatten)]
     advice: AdviceArguments,
-    /// Write the suggested pairs that are left to match to FILE, the most promising first, and print the
-    /// COLMAP command that matches them.
+    /// Write the pairs that are left to match to FILE, and print COLMAP's command.
     #[arg(long, value_name = "FILE")]
     write: Option<PathBuf>,
     #[command(flatten)]
@@ -29,35 +28,29 @@ pub(super) struct AdviseArguments {
 /// What is asked about an answer.
 #[derive(Args)]
 pub(super) struct AdviceArguments {
-    /// Find the pairs (`--weak=images`: the images) without which a component is not finite solvable.
+    /// The pairs, or images, without which a component falls apart.
     #[arg(long, value_name = "WHAT", num_args = 0..=1, require_equals = true)]
     #[arg(value_enum, default_missing_value = "pairs")]
     weak: Option<WeakName>,
-    /// Say of every pair in how many of its equations the rest checks it, and which pairs check each
-    /// other: an error in what nothing checks cannot be seen by anyone. Calibrated: of its direction alone.
+    /// In how many of its equations the rest checks each pair.
     #[arg(long)]
     surplus: bool,
-    /// Count the pairs that are determined though they are not in the graph, up to finitely many values if it
-    /// is not unique, and list N of them at most [default: 1000].
+    /// Count the pairs that are determined and not in the graph, and list N.
     #[arg(long, value_name = "N", num_args = 0..=1, require_equals = true)]
     #[arg(default_missing_value = "1000")]
     implied: Option<u32>,
-    /// Suggest images to match that would join components, at most N [default: 10]; with --tracks
-    /// also how much has to come of it; with --intrinsics cameras to calibrate. `advise` does this if
-    /// nothing else is asked.
+    /// Pairs to match that would join components, N at most [default: 10].
     #[arg(long, value_name = "N", num_args = 0..=1, require_equals = true)]
     #[arg(default_missing_value = "10", value_parser = clap::value_parser!(u32).range(1..))]
     suggest: Option<u32>,
-    /// Explain an image: its components, its pairs, what it would need.
+    /// An image: its components, its pairs, what it would need.
     #[arg(long, value_name = "IMAGE")]
     explain: Option<String>,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
 enum WeakName {
-    /// Pairs.
     Pairs,
-    /// Images.
     Images,
 }
 

@@ -39,12 +39,8 @@ pub(super) struct ConvertArguments {
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum To {
-    /// A pair of node numbers on each line, a node without pairs on one of its own, and what the
-    /// nodes are called in comments.
     Pairs,
-    /// A line for each graph, without names.
     Graph6,
-    /// What is given besides the pairs, by --given and by rigs.
     Given,
 }
 

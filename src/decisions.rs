@@ -25,6 +25,7 @@ use viewcert_report::at_cameras::HereReport;
 use viewcert_report::intrinsics::IntrinsicsLine;
 use viewcert_report::many::Table;
 use viewcert_report::motion;
+use viewcert_report::next::overview_of;
 use viewcert_report::priors::PriorsLine;
 use viewcert_report::scene::Scene;
 use viewcert_report::{Report, WrittenProof, json};
@@ -255,6 +256,13 @@ impl Work<'_> {
             (None, _) => {
                 report.write_text(out)?;
                 written.say(out, &plan.products)?;
+                if input.database.is_some() && !plan.request.asks() {
+                    let overview = overview_of(&input.name, &plan.read);
+                    writeln!(
+                        out,
+                        "  next        {overview} (what the mappers will make of it)"
+                    )?;
+                }
             }
         }
         if let Some(why) = written.no_witness {

@@ -14,9 +14,7 @@ use std::path::{Path, PathBuf};
 pub(super) struct DrawArguments {
     /// The graph, in whatever `verify` reads.
     graph: PathBuf,
-    /// The files: a name that ends in .html is a page that needs nothing but this file, one that ends
-    /// in .svg a picture of the graph with its components in colours; `-` is the picture on standard
-    /// output, and the report goes to standard error. A page shows what else is asked here.
+    /// A page (.html), a picture (.svg), or both; `-` is the picture.
     #[arg(required = true, value_name = "FILE", num_args = 1..=2)]
     files: Vec<PathBuf>,
     #[command(flatten)]

@@ -11,11 +11,9 @@ use viewcert_advice::Request;
 /// What to export, and where to.
 #[derive(Args)]
 pub(super) struct ExportArguments {
-    /// The graph: a COLMAP database, which goes by its tracks, as mappers do, unless --model names one of
-    /// pairs; or any other input of `verify`.
+    /// The graph; a COLMAP database goes by its tracks, unless --model is said.
     graph: PathBuf,
-    /// The folder for the components: lists of images and pairs for COLMAP, tables, commands. It holds
-    /// nothing else.
+    /// The folder for lists of images and pairs, and tables.
     #[arg(value_name = "DIR")]
     folder: PathBuf,
     #[command(flatten)]

@@ -17,13 +17,17 @@ pub(super) const OPTION: &str = "--given";
 /// What is known besides the pairs.
 #[derive(Args)]
 pub(super) struct GivenArguments {
-    /// What is known besides the pairs; see `verify help given`.
-    #[arg(long, value_name = "FILE", visible_alias = "cameras")]
+    /// What is known besides the pairs (`verify help given`).
+    #[arg(
+        long,
+        value_name = "FILE",
+        visible_alias = "cameras",
+        hide_short_help = true
+    )]
     given: Option<PathBuf>,
 
-    /// Displacements and positions of --given are in the frame of the directions: every rotation is known
-    /// in it.
-    #[arg(long, requires = "given")]
+    /// What --given holds is in the frame of the directions.
+    #[arg(long, requires = "given", hide_short_help = true)]
     one_frame: bool,
 }
 

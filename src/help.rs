@@ -1,7 +1,7 @@
 //! `verify help [TOPIC]`: a command, or what is common to many of them.
 
-use super::given;
 use super::input::InputArguments;
+use super::{given, intrinsics};
 use anyhow::{Context, Result, bail};
 use clap::{Args, Command};
 use std::io::Write;
@@ -10,7 +10,7 @@ use viewcert_session::exit::GOOD;
 /// What to explain.
 #[derive(Args)]
 pub(super) struct HelpArguments {
-    /// A command, as words (`check`), or input, or given [default: the program].
+    /// A command, or input, given, intrinsics [default: the program].
     #[arg(value_name = "TOPIC")]
     topic: Vec<String>,
 }
@@ -34,6 +34,7 @@ pub(super) fn run(mut program: Command, arguments: &HelpArguments) -> Result<u8>
     let text = match words[..] {
         ["input"] => input(),
         ["given"] => given::HELP.to_owned(),
+        ["intrinsics"] => intrinsics::HELP.to_owned(),
         _ => {
             program.build();
             command(&mut program, &words)?
@@ -49,7 +50,9 @@ fn command(program: &mut Command, words: &[&str]) -> Result<String> {
     let mut of = program;
     for word in words {
         let Some(found) = of.find_subcommand_mut(word) else {
-            bail!("help: {word} is no command and no topic; the topics are input and given");
+            bail!(
+                "help: {word} is no command and no topic; the topics are input, given and intrinsics"
+            );
         };
         of = found;
     }

@@ -15,14 +15,26 @@ use viewcert_report::assumptions::out_of_planes;
 use viewcert_report::intrinsics::IntrinsicsLine;
 use viewcert_session::Session;
 
+/// What a file of classes looks like: `verify help intrinsics`.
+pub(super) const HELP: &str = "\
+What --intrinsics FILE holds: what is not known of the intrinsics of each camera, a class on each line.
+
+  known A B                  All intrinsics of these cameras are known.
+  focal C                    The focal length is not known.
+  focal+point D              Focal length and principal point are not known.
+  unknown E                  No intrinsics are known.
+  default focal              The class of all others.
+  shared focal F G           These images have one sensor, of the class that is named.
+
+Does the graph determine cameras and intrinsics? Without FILE the prior focal lengths and `camera_id` of
+the graph's own COLMAP database say what is known; with `free` in its place no focal length is known.
+";
+
 /// What is known of each camera.
 #[derive(Args)]
 pub(super) struct IntrinsicsArguments {
-    /// What is not known of the intrinsics of each camera, from FILE: lines `known A B`, `focal C`,
-    /// `focal+point D`, `unknown E`, `default focal`, and `shared focal F G` for images of one sensor.
-    /// Does the graph determine cameras and intrinsics? Without FILE: by the prior focal lengths and
-    /// `camera_id` of the graph's own COLMAP database; `free`: without prior ones.
-    #[arg(long, value_name = "FILE", num_args = 0..=1)]
+    /// Intrinsics that are unknown (`verify help intrinsics`).
+    #[arg(long, value_name = "FILE", num_args = 0..=1, hide_short_help = true)]
     intrinsics: Option<Option<PathBuf>>,
 }
 

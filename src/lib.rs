@@ -51,15 +51,11 @@ use clap::{CommandFactory, Parser, Subcommand};
 use std::ffi::OsString;
 use viewcert_session::{Session, exit};
 
-/// Exact, certified solvability of viewing graphs.
-///
-/// Does my viewing graph determine the cameras?              verify GRAPH
-/// What do the matches of my photographs determine?          verify overview DATABASE
-/// Does this certificate prove what it claims?               verify check CERTIFICATE [GRAPH]
+/// Which cameras do the matches of your photographs determine? Exact, with certificates.
 #[derive(Parser)]
 #[command(name = "verify", version, args_conflicts_with_subcommands = true)]
 #[command(subcommand_negates_reqs = true, disable_help_subcommand = true)]
-#[command(verbatim_doc_comment, after_help = after_help(), after_long_help = after_long_help())]
+#[command(after_help = "All options and commands: `verify --help`.", after_long_help = after_help())]
 struct CommandLine {
     #[command(subcommand)]
     command: Option<Command>,
@@ -71,61 +67,53 @@ struct CommandLine {
 
 /// The commands that the list of commands leaves out; a test holds them against it.
 const LITERATURE: &[&str] = &[
-    "  models      Decide every camera model side by side, and say what changes between them",
+    "  models      Every camera model side by side, and what changes between them",
     "  audit       Hold floating point, or claims of others, against the exact verdict",
-    "  label       Name a small graph: a label that is the same for all its relabellings, and stays",
+    "  label       Name a small graph: one label for all its relabellings",
     "  catalog     Enumerate candidates and decide them all",
+    "  witness     Two sets of cameras that have the same fundamental matrices",
+    "  convert     A graph, or what is given besides, as both checkers read it",
 ];
 
 /// The end of the help.
 fn after_help() -> String {
     format!(
-        "Commands of the literature:\n{}\n\nHow files are read: `verify help input`. What else can be \
-         known: `verify help given`.",
+        "Commands of the literature:\n{}\n\nMore: `verify help input` (files), `given` (what else is known), \
+         `intrinsics`. Exit codes: 0 good,\n1 not determined or rejected, 2 bad usage or input, 3 too large \
+         (docs/reconstruction.md has a table).",
         LITERATURE.join("\n")
     )
 }
 
-/// The same with the exit codes.
-fn after_long_help() -> String {
-    after_help()
-        + "\n\n\
-Exit codes: 0 all graphs are solvable or finite solvable (check: verified; audit: all agree; overview:
-all images with a pair are determined; models: solvable in every model; split: the model is one part
-with all images; merge and lists: what is shared fixes everything; contradictions: there are none), 1 some are not (check: rejected;
-audit: a disagreement, a refuted claim), 2 bad usage or input, 3 too large for the method or for the
-limits of time and memory, 130 interrupted (Ctrl-C), 141 nobody reads the output, 143
-terminated. Of several graphs the largest code counts."
-}
-
 #[derive(Subcommand)]
 enum Command {
-    /// Say on one screen what the pairs and tracks of a database determine, and what follows.
+    /// What mappers will make of matches, whether to trust it, and what to do.
     Overview(overview::OverviewArguments),
-    /// Say what to do about an answer: what it hangs on, what to match, what an image needs.
+    /// What to match, what all hangs on, what an image needs.
     Advise(advise::AdviseArguments),
     /// Follow a database while COLMAP matches, and say what joins.
     Watch(watch::WatchArguments),
-    /// Prove that not all motions of pairs can be right, and say which pairs to look at.
+    /// Prove that not all motions of pairs can be right, and name pairs to look at.
     Contradictions(contradictions::ContradictionsArguments),
-    /// Write the components to a folder, as COLMAP takes them.
+    /// Write the parts to a folder, as COLMAP takes them.
     Export(export::ExportArguments),
-    /// Take a COLMAP model apart where its tracks do not hold it together.
+    /// Take a model apart where its tracks do not hold it together.
     Split(split::SplitArguments),
-    /// Say whether what two COLMAP models share fixes the one against the other.
+    /// Whether what two models share fixes one against the other.
     Merge(merge::MergeArguments),
-    /// Say whether lists of images are whole, and whether their overlaps fix scales.
+    /// Whether lists of images are whole, and their overlaps fix scales.
     Lists(lists::ListArguments),
-    /// Draw a graph with its components: a page, a picture.
+    /// Draw a graph with its components, as a page or a picture.
     Draw(draw::DrawArguments),
-    /// Write two sets of cameras that have the same fundamental matrices.
+    /// Two sets of cameras that have the same fundamental matrices.
+    #[command(hide = true)]
     Witness(witness::WitnessArguments),
-    /// Verify a certificate with the independent checker.
+    /// Check a certificate with the independent checker.
     Check(check::CheckArguments),
-    /// Write what both checkers read: a graph as pairs of node numbers or as graph6, or what is given
-    /// besides.
+    /// A graph, or what is given besides, as both checkers read it.
+    #[command(hide = true)]
     Convert(convert::ConvertArguments),
-    /// Name a small graph: a label that is the same for all its relabellings, and stays.
+    /// Name a small graph: one label for all its relabellings.
     #[command(hide = true)]
     Label(label::LabelArguments),
     /// Enumerate candidates and decide them all.
@@ -134,10 +122,10 @@ enum Command {
     /// Hold floating point, or claims of others, against the exact verdict.
     #[command(hide = true)]
     Audit(audit::AuditArguments),
-    /// Decide every camera model side by side, and say what changes between them.
+    /// Every camera model side by side, and what changes between them.
     #[command(hide = true)]
     Models(models::ModelsArguments),
-    /// Explain a command, how files are read (input), or what else can be known (given).
+    /// Explain a command, or input, given, intrinsics.
     Help(help::HelpArguments),
 }
 

@@ -2,6 +2,7 @@
 
 use super::given::{self, GivenArguments};
 use super::input::InputArguments;
+use super::question::GRAPHS;
 use anyhow::{Context, Result, ensure};
 use clap::Args;
 use std::path::PathBuf;
@@ -17,10 +18,7 @@ use viewcert_session::{Session, outputs};
 /// Options of the comparison of models.
 #[derive(Args)]
 pub(super) struct ModelsArguments {
-    /// Graphs: edge lists, graph6 and sparse6 (a graph a line), MatrixMarket and MATLAB 5
-    /// matrices, GraphML and more, also compressed, and COLMAP's databases; `-` is
-    /// standard input.
-    #[arg(required = true, value_name = "GRAPH")]
+    #[arg(required = true, value_name = "GRAPH", help = GRAPHS)]
     graphs: Vec<PathBuf>,
     #[command(flatten)]
     input: InputArguments,

@@ -18,15 +18,15 @@ use viewcert::decide::{Options, Question, decide};
 use viewcert::geometry::model::Model;
 use viewcert_advice::export::shell;
 use viewcert_advice::{Advice, Request, Shapes, Tracks, foreseen};
-use viewcert_formats::colmap::{Database, DatabaseError};
+use viewcert_formats::colmap::{Database, DatabaseError, is_database};
 use viewcert_formats::error::{Problem, ReadError};
 use viewcert_formats::{NamedGraph, ReadOptions, open_database, read_graphs, with_rigs};
 use viewcert_report::Report;
 use viewcert_report::assumptions::{self, Scope};
 use viewcert_report::database::other_mapper;
-use viewcert_report::next::next;
-use viewcert_report::overview::{Overview, Wanted};
-use viewcert_report::overview_page;
+use viewcert_report::next::{File, next};
+use viewcert_report::overview::{Next, Overview, Wanted};
+use viewcert_report::{overview_page, screen};
 use viewcert_session::Session;
 use viewcert_session::exit::{GOOD, NOT};
 use viewcert_session::outputs;
@@ -34,16 +34,18 @@ use viewcert_session::outputs;
 /// Options of the overview.
 #[derive(Args)]
 pub(super) struct OverviewArguments {
-    /// COLMAP databases, or any other input of `verify`, models and other files of tracks included.
+    /// COLMAP databases, models, folders that hold one, or files of other pipelines.
     #[arg(required = true, value_name = "DATABASE")]
     inputs: Vec<PathBuf>,
     #[command(flatten)]
     input: InputArguments,
+    /// Print everything: parts, joints, notes, all verdicts.
+    #[arg(long)]
+    all: bool,
     /// Print one JSON object an input.
     #[arg(long)]
     json: bool,
-    /// Write a page as well: everything that is printed, the images with what is between them, and what
-    /// to match. It needs nothing but this file.
+    /// Write a page as well, which needs no other file.
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
 }
@@ -78,7 +80,7 @@ impl Asked {
         let read = read.with_context(|| format!("{}: no graph", path.display()))?;
         let source = source(session, self, path, read)?;
         let mut say = |found: &Overview<'_>| say(found).map(|()| GOOD);
-        overview(session, self, path, source, start, &mut say).map(drop)
+        overview(session, self, source, start, &mut say).map(drop)
     }
 
     fn inputs(&self, path: &Path) -> Inputs {
@@ -106,6 +108,23 @@ struct Source {
     tracks: Result<NamedGraph, String>,
     /// What both are of, if it is a database.
     database: Option<Database>,
+    /// The file or folder itself, which may lie in the one that was named.
+    path: PathBuf,
+    /// The other models that lie there, with their images.
+    beside: Vec<(String, usize)>,
+}
+
+impl Source {
+    /// A file that has tracks alone.
+    fn of_tracks(path: PathBuf, tracks: NamedGraph) -> Self {
+        Self {
+            pairs: None,
+            tracks: Ok(tracks),
+            database: None,
+            path,
+            beside: Vec::new(),
+        }
+    }
 }
 
 /// Says what every input determines; a bad one is reported and does not stop the others.
@@ -130,14 +149,14 @@ pub(super) fn run(session: &Session, arguments: &OverviewArguments) -> Result<u8
     };
     let each = |out: &mut _, path: &Path, read: Result<Input, ReadError>, start| {
         let source = source(session, &asked, path, read)?;
-        overview(session, &asked, path, source, start, &mut |found| {
+        overview(session, &asked, source, start, &mut |found| {
             if let Some(file) = page {
                 write_page(session, file, found)?;
             }
             if arguments.json {
                 found.write_json(out)?;
             } else {
-                found.write(out)?;
+                screen::write(out, found, arguments.all)?;
             }
             Ok(if found.determined() { GOOD } else { NOT })
         })
@@ -163,25 +182,29 @@ fn source(
                 error.file,
                 error.problem
             );
-            session.reading(path);
-            let tracks = read_graphs(path, &asked.of_tracks).next();
-            session.hide();
-            let Some(tracks) = tracks else {
-                bail!("{}: no graph", path.display());
-            };
-            return Ok(Source {
-                pairs: None,
-                tracks: Ok(tracks?),
-                database: None,
-            });
+            return Ok(Source::of_tracks(
+                path.to_owned(),
+                tracks_in(session, asked, path)?,
+            ));
         }
         Err(ReadError {
             file,
             problem: ref problem @ Problem::Holds(ref inside),
             ..
         }) => {
-            let first = inside.first().map_or("", String::as_str);
-            bail!("{file}: {problem}; type `verify overview {}`", shell(first));
+            let is_base = |path: &&String| is_database(Path::new(path));
+            let databases: Vec<&String> = inside.iter().filter(is_base).collect();
+            return match databases[..] {
+                [] => largest(session, asked, inside),
+                [only] => {
+                    let path = Path::new(only);
+                    let read = asked.inputs(path).next();
+                    source(session, asked, path, read.context("no graph")?)
+                }
+                [first, ..] => {
+                    bail!("{file}: {problem}; type `verify overview {}`", shell(first))
+                }
+            };
         }
         Err(error) => return Err(error.into()),
     };
@@ -197,6 +220,39 @@ fn source(
         pairs: Some(pairs),
         tracks,
         database,
+        path: path.to_owned(),
+        beside: Vec::new(),
+    })
+}
+
+/// The cameras and points of a model, or of another file that has no more.
+fn tracks_in(session: &Session, asked: &Asked, path: &Path) -> Result<NamedGraph> {
+    session.reading(path);
+    let tracks = read_graphs(path, &asked.of_tracks).next();
+    session.hide();
+    Ok(tracks.with_context(|| format!("{}: no graph", path.display()))??)
+}
+
+/// The model with most images of those in a folder; COLMAP numbers models as it makes them, not by size.
+fn largest(session: &Session, asked: &Asked, inside: &[String]) -> Result<Source> {
+    let (mut models, mut why) = (Vec::new(), None);
+    for path in inside {
+        match tracks_in(session, asked, Path::new(path)) {
+            Ok(model) => models.push((path, model)),
+            Err(error) => why = why.or(Some(error)),
+        }
+    }
+    // Of equals the first comes first.
+    models.sort_by_key(|(_, model)| std::cmp::Reverse(model.cameras));
+    let mut models = models.into_iter();
+    let Some((path, model)) = models.next() else {
+        return Err(why.context("no model")?);
+    };
+    let images = |model: &NamedGraph| model.cameras.unwrap_or_default() as usize;
+    let beside = models.map(|(path, model)| (path.clone(), images(&model)));
+    Ok(Source {
+        beside: beside.collect(),
+        ..Source::of_tracks(path.into(), model)
     })
 }
 
@@ -228,7 +284,6 @@ fn read_tracks(
 fn overview(
     session: &Session,
     wish: &Asked,
-    path: &Path,
     mut source: Source,
     start: Instant,
     say: &mut dyn FnMut(&Overview<'_>) -> Result<u8>,
@@ -248,9 +303,12 @@ fn overview(
     });
     let pairs = pairs.transpose()?;
     let intrinsics = match (&pairs, &source.database) {
-        (Some((input, [verdict, _])), Some(_)) => {
-            Some(intrinsics::of_database(session, path, input, verdict)?)
-        }
+        (Some((input, [verdict, _])), Some(_)) => Some(intrinsics::of_database(
+            session,
+            &source.path,
+            input,
+            verdict,
+        )?),
         _ => None,
     };
     let tracks = source
@@ -262,7 +320,7 @@ fn overview(
     let (input, verdict) = match (&tracks, &pairs) {
         (Some((input, verdict)), _) => (*input, verdict),
         (None, Some((input, [_, calibrated]))) => (*input, calibrated),
-        (None, None) => bail!("{}: neither pairs nor tracks", path.display()),
+        (None, None) => bail!("{}: neither pairs nor tracks", source.path.display()),
     };
     let scope_of = |input: &NamedGraph, verdict: &Verdict| {
         let asked = assumptions::Asked::default();
@@ -330,7 +388,8 @@ fn overview(
         narrow,
         parts: OnceCell::new(),
         without_base_line: Vec::new(),
-        next: Vec::new(),
+        beside: std::mem::take(&mut source.beside),
+        next: Next::default(),
         time: Duration::ZERO,
     };
     if let Some(database) = source.database.take() {
@@ -341,7 +400,15 @@ fn overview(
         }
         database.finish()?;
     }
-    found.next = next(&wish.of_tracks, path, &found);
+    let file = File {
+        path: &source.path.display().to_string(),
+        options: match found.tracks {
+            Some(_) => &wish.of_tracks,
+            None => &wish.options,
+        },
+        is_model: source.path.is_dir(),
+    };
+    found.next = next(&file, &found);
     found.time = start.elapsed();
     say(&found)
 }

@@ -9,26 +9,26 @@ use viewcert::geometry::model::Model;
 use viewcert_formats::colmap::is_database;
 
 /// The graphs.
-pub(super) const GRAPHS: &str = "Graphs, in about any file that holds one: edge lists, graph6, matrices, \
-                                 GraphML, COLMAP databases and many more (`verify help input`); `-` is \
+pub(super) const GRAPHS: &str = "Lists of pairs, COLMAP databases and many more (`verify help input`); `-` is \
                                  standard input";
+
+/// The title of options that change how something is computed, and not what is asked.
+pub(super) const ARITHMETIC: &str = "Arithmetic";
 
 /// What edges carry, and how graphs are read.
 #[derive(Args)]
 pub(super) struct QuestionArguments {
-    /// What is known of the cameras [default: projective; with --tracks calibrated].
+    /// What is known of the cameras [default: projective].
     #[arg(long, value_enum)]
     model: Option<ModelName>,
-    /// Decide the graph of cameras and points, of a COLMAP database or model, Bundler, BAL, NVM,
-    /// OpenMVG, AliceVision or OpenSfM: do the tracks determine all positions, rotations being known? Implies --model
-    /// calibrated.
+    /// Decide the graph of cameras and points; rotations are known.
     #[arg(long)]
     tracks: bool,
     /// Seed of all random cameras.
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, help_heading = ARITHMETIC, hide_short_help = true)]
     seed: u64,
     /// List the members of every component.
-    #[arg(long)]
+    #[arg(long, hide_short_help = true)]
     components: bool,
     /// Print one JSON object a graph.
     #[arg(long)]
@@ -39,13 +39,9 @@ pub(super) struct QuestionArguments {
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum ModelName {
-    /// Edges carry fundamental matrices.
     Projective,
-    /// Edges carry essential matrices: known intrinsics.
     Calibrated,
-    /// Edges carry affine fundamental matrices: affine cameras.
     Affine,
-    /// Unknown focal lengths, everything else known: each pair fixes both, and then as calibrated.
     Focal,
 }
 

@@ -5,7 +5,7 @@ use super::given::GivenArguments;
 use super::input::recorded;
 use super::intrinsics::IntrinsicsArguments;
 use super::plan::{Form, Plan};
-use super::question::{GRAPHS, QuestionArguments};
+use super::question::{ARITHMETIC, GRAPHS, QuestionArguments};
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -13,78 +13,68 @@ use viewcert::decide::{Arithmetic, CountSolutions, Prime};
 use viewcert::linalg::prime::PrimeField;
 use viewcert_report::many::Format;
 
+/// The title of what can be checked without us.
+const EVIDENCE: &str = "Evidence";
+
 /// Options of the verifier.
 #[derive(Args)]
 pub(super) struct VerifyArguments {
-    #[arg(required = true, value_name = "GRAPH", help = GRAPHS)]
+    #[arg(required = true, value_name = "GRAPH", help = GRAPHS, hide_short_help = true)]
     graphs: Vec<PathBuf>,
     #[command(flatten)]
     question: QuestionArguments,
     #[command(flatten)]
     given: GivenArguments,
-    /// Compute modulo this prime, 5 <= P < 2^62 [default: 2305843009213693951 = 2^61 - 1, and without
-    /// this option 2^29 - 3 for cores of 256 cameras and more].
+    /// Compute modulo this prime [default: 2^61 - 1; 2^29 - 3 for large cores].
     #[arg(long, value_name = "P", num_args = 0..=1, require_equals = true)]
+    #[arg(help_heading = ARITHMETIC, hide_short_help = true)]
     #[arg(
         default_missing_value = "2305843009213693951",
         conflicts_with = "rational"
     )]
     prime: Option<u64>,
-    /// Compute over the integers, at cameras whose entries are fractions with numerators up to A and
-    /// denominators up to B [default: 9,4].
+    /// Compute over the integers, at fractions of so large numbers [default: 9,4].
     #[arg(long, value_name = "A,B", num_args = 0..=1, require_equals = true)]
-    #[arg(default_missing_value = "9,4")]
+    #[arg(default_missing_value = "9,4", help_heading = ARITHMETIC, hide_short_help = true)]
     rational: Option<Bounds>,
-    /// How the rank is found.
+    /// How the rank is found: by merging bodies, without counting, or as the paper does.
     #[arg(long, value_enum, default_value_t = MethodName::Bodies)]
+    #[arg(help_heading = ARITHMETIC, hide_short_help = true)]
     method: MethodName,
-    /// What the graph determines if all centres lie in one plane, and everything else is in general
-    /// position: the exit code is that of this case. With --model focal axes must not be parallel or in that plane.
-    #[arg(long, conflicts_with = "tracks")]
+    /// Decide for centres that all lie in one plane.
+    #[arg(long, conflicts_with = "tracks", hide_short_help = true)]
     planar: bool,
     #[command(flatten)]
     intrinsics: IntrinsicsArguments,
-    /// Count the solutions of graphs that are finite solvable, over the complex numbers [default: quick, with
-    /// --table off].
+    /// Count the solutions over the complex numbers [default: quick].
     #[arg(long, value_enum, value_name = "HOW", num_args = 0..=1, require_equals = true)]
-    #[arg(default_missing_value = "quick")]
+    #[arg(default_missing_value = "quick", hide_short_help = true)]
     solutions: Option<Solutions>,
-    /// Write a certificate to this file, or for every graph to this folder (`-`: to standard output, and
-    /// the report to standard error).
-    ///
-    /// In a folder certificates hold their graphs, up to 10,000 cameras (elsewhere up to 100), so that `verify
-    /// check FOLDER` needs nothing else.
-    #[arg(long, value_name = "PATH")]
+    /// Write a certificate to this file, or one for each graph to this folder.
+    #[arg(long, value_name = "PATH", help_heading = EVIDENCE, hide_short_help = true)]
     certificate: Option<PathBuf>,
-    /// Write the explicit proof to this file: what `viewcert-proved` verifies (docs/proof.md).
-    #[arg(long, value_name = "FILE")]
+    /// Write the explicit proof that `viewcert-proved` verifies to this file.
+    #[arg(long, value_name = "FILE", help_heading = EVIDENCE, hide_short_help = true)]
     proof: Option<PathBuf>,
-    /// Print a line a graph, with its solutions if --solutions counts them, and a summary (csv: without it;
-    /// latex: as a table).
+    /// Print a line a graph, and a summary.
     #[arg(long, value_enum, value_name = "FORMAT", num_args = 0..=1, require_equals = true)]
-    #[arg(default_missing_value = "text")]
+    #[arg(default_missing_value = "text", hide_short_help = true)]
     #[arg(conflicts_with_all = ["json", "components", "planar", "tracks"])]
     table: Option<TableName>,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
 enum MethodName {
-    /// Rigid bodies are merged, and what is left is counted or eliminated.
     Bodies,
-    /// The same without proofs by counting: negative verdicts get an error bound.
     Ranks,
-    /// The Jacobian of the whole graph, as the paper does.
     Matrix,
 }
 
 /// How a table is written.
 #[derive(Clone, Copy, ValueEnum)]
 enum TableName {
-    /// In columns, with a summary below.
     Text,
-    /// Comma-separated values behind a head.
     Csv,
-    /// A LaTeX table with the rules of booktabs.
     Latex,
 }
 
@@ -100,11 +90,8 @@ impl From<TableName> for Format {
 
 #[derive(Clone, Copy, ValueEnum)]
 enum Solutions {
-    /// Where it takes about a second at most.
     Quick,
-    /// Whatever it takes.
     Full,
-    /// Not at all.
     Off,
 }
 

@@ -17,8 +17,7 @@ use viewcert_session::Outputs;
 pub(super) struct WitnessArguments {
     /// The graph, in whatever `verify` reads.
     graph: PathBuf,
-    /// The file for two sets of cameras modulo a prime that have the same fundamental matrices, if a
-    /// second solution is known (`-`: standard output, and the report to standard error).
+    /// The file for both sets, modulo a prime.
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// Count solutions whatever it takes.

@@ -1412,7 +1412,7 @@ fn frames_share_base_lines_that_are_not_known() {
     let said = "  base lines  1 unknown base line, the same in 3 frames: solvable: ";
     assert!(run.out.contains(said), "{}", run.out);
     // The overview goes by it: one part, nothing to match; and no promise, as frames may not turn.
-    let run = verify(&["overview", text(&path)]);
+    let run = verify(&["overview", "--all", text(&path)]);
     assert!(run.code == 1 && run.out.contains(said), "{}", run.out);
     let screen = verify(&["overview", "--json", text(&path)])
         .json()
@@ -1517,7 +1517,7 @@ fn a_rig_joins_what_it_joins_for_mappers() {
     assert_eq!(line["verdict"], "solvable", "{line}");
     let apart = json_of(&path, &["--tracks", "--no-rigs"]);
     assert_eq!(apart["verdict"], "not-finite-solvable");
-    let overview = verify(&["overview", text(&path)]);
+    let overview = verify(&["overview", "--all", text(&path)]);
     assert!(
         overview
             .out

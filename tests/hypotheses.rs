@@ -36,8 +36,7 @@ fn frames_have_to_turn() {
         assert_eq!((run.code, &line["determined"]), (1, &json!(false)));
         assert_eq!(line["condition"], condition);
         assert!(
-            run.out
-                .contains(&format!("all determined {condition} (COLMAP")),
+            run.out.contains(&format!("images {condition} (proved)")),
             "{}",
             run.out
         );
@@ -88,7 +87,10 @@ fn frames_have_to_turn() {
 fn what_a_rig_alone_places() {
     let path = given("r_lr2.db");
     let condition = "if every pair is right and 1 image without a track is where the rig says";
-    for (words, code) in [(&["overview", &path][..], 1), (&["--tracks", &path], 0)] {
+    for (words, code) in [
+        (&["overview", "--all", &path][..], 1),
+        (&["--tracks", &path], 0),
+    ] {
         let (run, line) = both(words);
         assert_eq!((run.code, &line["condition"]), (code, &json!(condition)));
         assert!(run.out.contains(condition), "{}", run.out);

@@ -19,12 +19,7 @@ fn of_graphs() {
             &["--components"],
             &["program", "graph", "because", "verdict"],
         ),
-        (
-            "overview",
-            "overview",
-            &[],
-            &["program", "graph", "follows"],
-        ),
+        ("overview", "overview", &[], &["program", "graph", "expect"]),
         ("models", "models", &[], &["program", "graph", "models"]),
         ("label", "label", &[], &["program", "graph", "label"]),
     ];

@@ -120,7 +120,7 @@ fn name(id: i64) -> String {
 /// The overview of a path as text, its continued lines joined, and as JSON that keeps to the schema.
 fn both(path: &Path) -> (Run, Value) {
     let path = path.to_str().unwrap();
-    let mut run = verify(&["overview", path]);
+    let mut run = verify(&["overview", "--all", path]);
     assert!(run.code <= 1, "{}", run.err);
     run.out = joined(&run.out);
     let said = verify(&["overview", "--json", path]);
@@ -142,8 +142,8 @@ fn joined(text: &str) -> String {
 /// Words that promise a reconstruction.
 const PROMISES: [&str; 6] = [
     "fixed: no motion",
-    "all determined",
-    "determine all",
+    "tracks determine",
+    "pairs determine",
     "are unique",
     "metric; ",
     "metric: all",
@@ -179,8 +179,8 @@ const RIGHT: &str = "if every pair is right";
 fn all_promises_of(path: &Path) {
     let (run, line) = both(path);
     assert_eq!(run.code, 0, "{}", run.out);
-    // Global mapping, two verdicts on pairs, intrinsics, tracks, and what follows.
-    assert_eq!(promises(&run.out, RIGHT), 6, "{}", run.out);
+    // What can be trusted, two verdicts on pairs, intrinsics, tracks.
+    assert_eq!(promises(&run.out, RIGHT), 5, "{}", run.out);
     assert_eq!(
         (&line["determined"], &line["condition"]),
         (&json!(true), &json!(RIGHT))
@@ -271,7 +271,7 @@ fn models_rest_on_their_tracks() {
     let folder = tempfile::tempdir().unwrap();
     let (model, parts) = (folder.path().join("model"), folder.path().join("parts"));
     fs::create_dir(&model).unwrap();
-    text_model(&model, 5);
+    text_model(&model, 3, 5);
     let model = model.to_str().unwrap();
     let right = "if every track is right";
     for words in [
@@ -286,23 +286,25 @@ fn models_rest_on_their_tracks() {
 }
 
 /// COLMAP's model as text: a sphere and its three images, which see all of so many points.
-fn text_model(folder: &Path, points: u32) {
+fn text_model(folder: &Path, images: u32, points: u32) {
     let cameras =
         "# Camera list with one line of data per camera:\n1 EQUIRECTANGULAR 2000 1000 2000 1000\n";
     let seen: Vec<String> = (0..points).map(|k| format!("{k}.5 7.5 {k}")).collect();
     let seen = seen.join(" ");
-    let mut images = "# Image list with two lines of data per image:\n".to_owned();
-    for id in 1..=3 {
-        images += &format!("{id} 1 0 0 0 {id} {} 0 1 {}\n{seen}\n", id * id, name(id));
+    let mut list = "# Image list with two lines of data per image:\n".to_owned();
+    for id in 1..=i64::from(images) {
+        list += &format!("{id} 1 0 0 0 {id} {} 0 1 {}\n{seen}\n", id * id, name(id));
     }
+    let images_list = list;
     let mut list = "# 3D point list with one line of data per point:\n".to_owned();
     for k in 0..points {
         let (x, y) = (k * k % 7, k * k * k % 11);
-        list += &format!("{k} {x}.5 {y}.5 {k}.5 9 9 9 0.1 1 {k} 2 {k} 3 {k}\n");
+        let track: String = (1..=images).map(|id| format!(" {id} {k}")).collect();
+        list += &format!("{k} {x}.5 {y}.5 {k}.5 9 9 9 0.1{track}\n");
     }
     for (name, text) in [
         ("cameras", cameras),
-        ("images", &images),
+        ("images", &images_list),
         ("points3D", &list),
     ] {
         fs::write(folder.join(name).with_extension("txt"), text).unwrap();
@@ -356,7 +358,7 @@ fn focal_lengths_that_are_guesses() {
         let (run, line) = made.overview();
         assert_eq!(run.code, code, "{}", run.out);
         let condition = format!("{RIGHT}{focal}");
-        let promise = format!("one model of all 6 images, all determined {condition} (COLMAP 4.2)");
+        let promise = format!("the tracks determine all 6 images {condition} (proved)");
         assert!(run.out.contains(&promise), "{promise}: {}", run.out);
         assert_eq!(
             (&line["condition"], &line["determined"]),
@@ -388,7 +390,7 @@ fn focal_lengths_that_are_guesses() {
     let data = data();
     let (run, line) = both(&data.join("turn4/photos/kitchen_t.db"));
     assert_eq!((run.code, &line["determined"]), (1, &json!(false)));
-    let promise = format!("all determined {RIGHT} and so are 25 guessed focal lengths");
+    let promise = format!("determine all 25 images {RIGHT} and so are 25 guessed focal lengths");
     assert!(run.out.contains(&promise), "{}", run.out);
 }
 
@@ -405,7 +407,7 @@ fn poses_without_points() {
     let models = ["empty", "comments", "binary"].map(|name| folder.path().join(name));
     for model in &models {
         fs::create_dir(model).unwrap();
-        text_model(model, 0);
+        text_model(model, 3, 0);
     }
     fs::write(models[0].join("points3D.txt"), "").unwrap();
     // COLMAP reads the binary files of a folder first.
@@ -515,22 +517,21 @@ fn pairs_that_are_too_weak() {
         "{}",
         run.out
     );
-    let next: Vec<&str> = line["next"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|next| next["command"].as_str().unwrap())
-        .collect();
     let path = made.path();
     let path = path.to_str().unwrap();
-    assert_eq!(next[0], format!("verify overview {path} --min-inliers 8"));
+    let command = |k: usize| -> Vec<&str> {
+        let words = line["do_next"][k]["command"].as_array().unwrap();
+        words.iter().map(|word| word.as_str().unwrap()).collect()
+    };
+    let words = &command(0)[1..];
+    assert_eq!(words, ["overview", path, "--min-inliers", "8"]);
+    let mapper = command(1);
     assert!(
-        next[1].ends_with(" --GlobalMapper.min_num_matches 8"),
-        "{next:?}"
+        mapper.ends_with(&["--GlobalMapper.min_num_matches", "8"]),
+        "{mapper:?}"
     );
     // The command that is named connects all.
-    let words: Vec<&str> = next[0].split(' ').skip(1).collect();
-    let run = verify(&[&words[..], &["--json"]].concat());
+    let run = verify(&[words, &["--json"]].concat());
     assert_eq!(run.json()[0]["database"]["connected"], json!([6]));
     // Tracks are not corrupt, either.
     let run = verify(&["--tracks", path]);
@@ -552,7 +553,7 @@ fn pairs_that_are_too_weak() {
         why.starts_with("make no model: none of 15 verified pairs has 15 inliers; match other"),
         "{why}"
     );
-    assert_eq!(line["next"], json!([]));
+    assert_eq!(line["do_next"], json!([]));
     assert!(!run.out.contains("  suggested  "), "{}", run.out);
 }
 
@@ -626,41 +627,49 @@ fn nothing_is_left_to_match() {
 fn a_folder_of_models_or_of_a_database() {
     let folder = tempfile::tempdir().unwrap();
     let sparse = folder.path().join("sparse");
-    for name in ["0", "1"] {
+    // COLMAP numbers models as it makes them: the second is the good one.
+    for (name, images) in [("0", 2), ("1", 5)] {
         fs::create_dir_all(sparse.join(name)).unwrap();
-        text_model(&sparse.join(name), 5);
+        text_model(&sparse.join(name), images, 5);
     }
     let project = tempfile::tempdir().unwrap();
     let made = Made::six();
     made.all(&[1, 2, 3], 40);
     fs::copy(made.path(), project.path().join("database.db")).unwrap();
-    for (place, first, others) in [
-        (&*sparse, sparse.join("0"), "sparse/1"),
-        (folder.path(), sparse.join("0"), "sparse/1"),
+    for (place, first, said) in [
+        (
+            &*sparse,
+            sparse.join("1"),
+            "the largest model, with 5 images; ",
+        ),
+        (folder.path(), sparse.join("1"), "sparse/0 has 2 images"),
         (
             project.path(),
             project.path().join("database.db"),
-            "database.db",
+            "the tracks",
         ),
     ] {
         let (place, first) = (place.to_str().unwrap(), first.to_str().unwrap());
         let run = verify(&["overview", place]);
-        assert_eq!((run.code, &*run.out), (2, ""));
-        assert!(
-            run.err.contains("this is a folder that holds") && run.err.contains(others),
-            "{}",
-            run.err
-        );
-        assert!(
-            run.err.contains(&format!("type `verify overview {first}`")),
-            "{}",
-            run.err
-        );
-        // What it says to type works.
-        assert!(verify(&["overview", first]).code <= 1, "{first}");
+        assert!(run.code <= 1, "{}", run.err);
+        assert_eq!(run.out.lines().next(), Some(first));
+        let out = joined(&run.out);
+        assert!(out.contains(said), "{out}");
+        let merges = out.contains(&format!("  do          verify merge {first} "));
+        assert_eq!(merges, first.ends_with("sparse/1"), "{out}");
         let run = verify(&["--tracks", place]);
         assert!(run.err.contains("name one of these"), "{}", run.err);
     }
+    // Of several databases nobody knows which is meant.
+    fs::copy(made.path(), project.path().join("other.db")).unwrap();
+    let run = verify(&["overview", project.path().to_str().unwrap()]);
+    assert_eq!((run.code, &*run.out), (2, ""));
+    assert!(
+        run.err.contains("this is a folder that holds") && run.err.contains("other.db"),
+        "{}",
+        run.err
+    );
+    assert!(run.err.contains("type `verify overview "), "{}", run.err);
     let run = verify(&["overview", "docs"]);
     assert_eq!(run.code, 2);
     assert!(run.err.contains("is a directory"), "{}", run.err);
@@ -725,8 +734,9 @@ fn spherical_cameras() {
     let (run, line) = made.overview();
     assert_eq!(run.code, 0, "{}", run.out);
     assert!(
-        run.out
-            .contains(&format!("all determined {RIGHT} (COLMAP 4.2)\n")),
+        run.out.contains(&format!(
+            "the tracks determine all 3 images {RIGHT} (proved)\n"
+        )),
         "{}",
         run.out
     );
@@ -759,7 +769,7 @@ fn spherical_cameras() {
     }
     // Files of cameras are known for what they are.
     let folder = tempfile::tempdir().unwrap();
-    text_model(folder.path(), 5);
+    text_model(folder.path(), 3, 5);
     let [text, binary] = ["cameras.txt", "cameras.bin"].map(|name| folder.path().join(name));
     let run = verify(&["--tracks", text.to_str().unwrap()]);
     assert_eq!(run.code, 0, "{}", run.err);

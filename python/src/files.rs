@@ -15,11 +15,11 @@ use viewcert_cli::{
     ContradictionsAsked, ListsAsked, MergeAsked, News, OverviewAsked, Terms, check_archive,
 };
 use viewcert_formats::folder::Listing;
-use viewcert_report::overview_page;
+use viewcert_report::{overview_page, screen};
 use viewcert_session::Session;
 use viewcert_session::exit::TooLarge;
 
-/// What pairs and tracks of an input determine: `kind` is `json`, `text` or `html`.
+/// What pairs and tracks of an input determine: `kind` is `json`, `text`, `all` or `html`.
 #[pyfunction]
 pub(crate) fn overview<'py>(
     py: Python<'py>,
@@ -40,7 +40,8 @@ pub(crate) fn overview<'py>(
         asked.of(&session, &path, |found| {
             match &*kind {
                 "json" => found.write_json(&mut out)?,
-                "text" => found.write(&mut out)?,
+                "text" => screen::write(&mut out, found, false)?,
+                "all" => screen::write(&mut out, found, true)?,
                 _ => out = overview_page::html(found, found.joints)?,
             }
             Ok(())

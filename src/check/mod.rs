@@ -29,16 +29,14 @@ use viewcert_session::printable;
 /// What to check.
 #[derive(Args)]
 pub(super) struct CheckArguments {
-    /// A certificate (`-` is standard input), a file with a certificate a line (`.jsonl`,
-    /// `.jsonl.gz`), or a folder of such files; a folder's `manifest.json` says what belongs to it.
+    /// A certificate, a file with one a line (.jsonl, .jsonl.gz), or a folder.
     #[arg(value_name = "CERTIFICATE")]
     certificate: PathBuf,
     /// The graph it is about; not needed if the certificate embeds it. Of one of contradictions the COLMAP database: its
     /// numbers have to be those.
     #[arg(value_name = "GRAPH")]
     graph: Option<PathBuf>,
-    /// Ask `viewcert-proved` as well, with this explicit proof (`verify GRAPH --proof`), and say which
-    /// checkers vouch for each claim.
+    /// Ask `viewcert-proved` as well, with this explicit proof.
     #[arg(
         long,
         value_name = "PROOF",
@@ -67,8 +65,8 @@ pub(super) struct CheckArguments {
 #[derive(Args)]
 #[command(next_help_heading = "What the certificate must be about")]
 struct ExpectedArguments {
-    /// The verdict: solvable, finite-solvable, not-finite-solvable; determined or not-determined at given
-    /// cameras; metric, not-metric or open.
+    /// The verdict: solvable, finite-solvable, not-finite-solvable, determined,
+    /// not-determined, metric, not-metric or open.
     #[arg(long, value_name = "VERDICT", value_parser = program::verdict)]
     expect: Option<String>,
     /// The model: projective, calibrated or affine.

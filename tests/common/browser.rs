@@ -6,6 +6,13 @@ use std::process::{Command, Stdio};
 /// Chromium, or what goes by its name.
 pub(crate) struct Browser(String);
 
+/// How large a screen is, and what points at it.
+#[derive(Clone, Copy)]
+pub(crate) enum Screen {
+    Desk,
+    Phone,
+}
+
 impl Browser {
     /// The browser that is installed here.
     pub(crate) fn find() -> Self {
@@ -25,6 +32,11 @@ impl Browser {
     /// The elements of a page as they are when all has run, and what went to standard error; `view` is
     /// the fragment of the address.
     pub(crate) fn dump(&self, path: &Path, view: &str) -> (String, String) {
+        self.dump_as(path, view, Screen::Desk)
+    }
+
+    /// The same on a screen.
+    pub(crate) fn dump_as(&self, path: &Path, view: &str, screen: Screen) -> (String, String) {
         let profile = tempfile::tempdir().unwrap();
         let output = Command::new(&self.0)
             .args([
@@ -33,11 +45,15 @@ impl Browser {
                 "--disable-gpu",
                 "--disable-dev-shm-usage",
             ])
-            .args([
-                "--enable-logging=stderr",
-                "--dump-dom",
-                "--window-size=1200,1600",
-            ])
+            .args(["--enable-logging=stderr", "--dump-dom"])
+            .args(match screen {
+                Screen::Desk => &["--window-size=1200,1600"][..],
+                // The pointer is a finger.
+                Screen::Phone => &[
+                    "--window-size=390,844",
+                    "--blink-settings=primaryPointerType=2,availablePointerTypes=2",
+                ],
+            })
             .arg(format!("--user-data-dir={}", profile.path().display()))
             .arg(format!("file://{}#{view}", path.display()))
             .stdin(Stdio::null())

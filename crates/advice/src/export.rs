@@ -319,6 +319,11 @@ fn write_joints(path: &Path, joints: &[Joint]) -> Result<()> {
 const LISTED: u32 = 3_130_000;
 const GLOBAL: u32 = 4_000_000;
 
+/// Whether a version has a global mapper; one that is not known is taken for a version that has.
+pub fn has_global_mapper(version: Option<u32>) -> bool {
+    version.is_none_or(|version| version >= GLOBAL)
+}
+
 /// The commands that reconstruct one component: with COLMAP's two mappers, and with pycolmap; those
 /// that the version has by which the database was written, or else those of version 4.
 fn commands(task: &Task, lists: &Path, name: &str) -> Vec<String> {
@@ -359,8 +364,8 @@ fn commands(task: &Task, lists: &Path, name: &str) -> Vec<String> {
 
 /// A word for a POSIX shell.
 pub fn shell(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "/._-+:@%".contains(c);
-    if !word.is_empty() && word.chars().all(plain) {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "/._-+:@%=".contains(c);
+    if !word.is_empty() && !word.starts_with('=') && word.chars().all(plain) {
         word.to_owned()
     } else if printable(word) != word {
         let quoted = word.replace('\\', r"\\").replace('\'', r"\'");

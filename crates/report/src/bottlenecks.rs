@@ -1,50 +1,25 @@
-//! Narrow places and special geometry, in lines of the overview.
+//! Narrow places and special geometry, in words.
 
 use super::counted;
-use std::io::{self, Write};
 use viewcert_advice::degenerate::{Hinge, Narrow, Pair};
 
-/// How many places of a kind are shown.
-const SHOWN: usize = 5;
-
-/// Writes what to look at by eye, and a warning for each special place.
-///
-/// # Errors
-/// Those of the writer.
-pub(crate) fn write<W: Write>(
-    out: &mut W,
-    found: &Narrow,
-    wrapped: impl Fn(&mut W, &str, &str) -> io::Result<()>,
-) -> io::Result<()> {
-    for few in found.few.iter().take(SHOWN) {
+/// What to look at by eye.
+pub(crate) fn few(found: &Narrow) -> Vec<String> {
+    let places = found.few.iter().filter(|few| !few.special).map(|few| {
         let [one, other] = few.sides;
-        let alone = if few.pairs.len() == 1 {
-            "alone holds"
+        let hold = if few.pairs.len() == 1 {
+            "holds"
         } else {
-            "alone hold"
+            "hold"
         };
-        let words = format!(
-            "{} {alone} {one} and {other} images together: look at {} by eye",
-            pairs(&few.pairs),
-            if few.pairs.len() == 1 { "it" } else { "them" },
-        );
-        wrapped(out, "few pairs", &words)?;
-    }
-    if found.few.len() > SHOWN {
-        writeln!(
-            out,
-            "              {} more (--json lists them)",
-            found.few.len() - SHOWN
-        )?;
-    }
-    for words in warnings(found) {
-        wrapped(out, "warning", &words)?;
-    }
-    Ok(())
+        let pairs = pairs(&few.pairs);
+        format!("{pairs} alone {hold} {one} and {other} images together")
+    });
+    places.collect()
 }
 
 /// A line for each special place.
-fn warnings(found: &Narrow) -> Vec<String> {
+pub(crate) fn warnings(found: &Narrow) -> Vec<String> {
     const SPECIAL: &str = "from one place";
     const MEANS: &str = "verdicts are about generic places";
     let few = found.few.iter().filter(|few| few.special).map(|few| {

@@ -30,6 +30,7 @@ pub mod priors;
 pub mod read;
 mod redundancy;
 pub mod scene;
+pub mod screen;
 mod shown;
 pub mod split;
 pub mod table;

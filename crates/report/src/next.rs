@@ -1,137 +1,351 @@
-//! The commands that lead on from an overview.
+//! What to do next about an overview, and what to expect of it.
 
-use crate::overview::{Next, Overview};
-use std::path::Path;
-use viewcert_advice::export::shell;
+use crate::mappers::all_of;
+use crate::overview::{Do, Next, Overview};
+use viewcert::wording::counted;
+use viewcert_advice::export::{has_global_mapper, shell};
+use viewcert_formats::colmap::DatabaseFacts;
 use viewcert_formats::{ReadOptions, TrackOptions};
 
-/// Commands that lead on from here, about a file that was read in this way.
-pub fn next(options: &ReadOptions, path: &Path, found: &Overview) -> Vec<Next> {
-    let with_tracks = found.tracks.is_some();
-    let (graph, tracks) = match options.tracks {
-        Some(tracks) if with_tracks => (" --tracks", words_of_tracks(tracks)),
-        _ => (" --model calibrated", String::new()),
+/// A file, and how it was read.
+pub struct File<'a> {
+    /// Its path.
+    pub path: &'a str,
+    /// The options of its tracks, or of its pairs.
+    pub options: &'a ReadOptions,
+    /// Whether it is a model of COLMAP, which `split` takes apart.
+    pub is_model: bool,
+}
+
+/// The list of pairs to match.
+const LIST: &str = "pairs.txt";
+
+/// What to do about a file of which this was found.
+pub fn next(file: &File, found: &Overview) -> Next {
+    match found.facts() {
+        _ if !found.beside.is_empty() && found.is_one_part() => of_models(file, found),
+        Some(facts) if facts.pairs_used == 0 => without_pairs(file, found, facts),
+        Some(facts) if facts.images_without_keypoints > 0 && found.no_model().is_some() => Next {
+            commands: vec![
+                file.colmap(
+                    "feature_extractor",
+                    &["--image_path", "images"],
+                    "extracts features",
+                ),
+                file.colmap(
+                    "exhaustive_matcher",
+                    &[],
+                    "matches them, as matches of now name others",
+                ),
+            ],
+            expect: "features and matches that belong together; then ask again".to_owned(),
+            by_hand: None,
+        },
+        Some(facts) if 2 * facts.focal_guessed > facts.images => guessed(),
+        Some(_) => to_match(file, found).unwrap_or_else(|| map(file, found)),
+        None => to_match(file, found).unwrap_or_else(|| of_no_database(file, found)),
+    }
+}
+
+/// The command that forecasts what mappers make of a database that was read in this way.
+pub fn overview_of(path: &str, options: &ReadOptions) -> String {
+    let file = File {
+        path,
+        options,
+        is_model: false,
     };
-    let read = options_of(options);
-    let file = shell(&path.display().to_string());
-    let command = |verb: &str, graph: &str, what: &str, purpose: &'static str| Next {
-        command: format!("verify {verb} {file}{graph}{read}{what}"),
-        purpose,
-    };
-    let advise = |graph: &str, what: &str, purpose| command("advise", graph, what, purpose);
-    let decided = format!("{graph}{tracks}");
-    // What tracks hang on does not tell kept promises from broken ones.
-    let few = "pairs without which parts fall apart";
-    let weak = (!with_tracks).then(|| advise(&decided, " --weak", few));
-    if found.determined() {
-        return Vec::from_iter(weak);
+    written(&file.verify("overview", &[], &[], "").command)
+}
+
+/// A command as it is typed in a POSIX shell.
+pub(crate) fn written(command: &[String]) -> String {
+    let words: Vec<String> = command.iter().map(|word| shell(word)).collect();
+    words.join(" ")
+}
+
+impl File<'_> {
+    /// A command of ours about the file.
+    fn verify(&self, verb: &str, before: &[&str], after: &[&str], why: &str) -> Do {
+        let mut command: Vec<String> = vec!["verify".into(), verb.into()];
+        command.extend(before.iter().map(ToString::to_string));
+        command.push(self.path.into());
+        command.extend(after.iter().map(ToString::to_string));
+        command.extend(options_of(self.options));
+        Do {
+            command,
+            why: why.into(),
+        }
     }
-    let mut next = Vec::new();
-    if found.facts().is_some_and(|facts| facts.pairs_used == 0) {
-        return found
-            .weak_pairs()
-            .map_or_else(Vec::new, |enough| weaker(&file, enough, options).into());
+
+    /// A command of COLMAP about the database.
+    fn colmap(&self, verb: &str, more: &[&str], why: &str) -> Do {
+        let words = ["colmap", verb, "--database_path", self.path];
+        Do {
+            command: words.iter().chain(more).map(ToString::to_string).collect(),
+            why: why.into(),
+        }
     }
-    // These are about one graph, and a path may hold several.
-    let single = found.name == path.display().to_string();
-    if single && found.has_parts() && !found.is_one_part() {
-        next.push(command(
-            "export",
-            &format!(" DIR{decided}"),
-            "",
-            "the images of every part, as lists for the mappers",
-        ));
-    }
-    if found.has_suggestions() {
-        next.push(advise(
-            &decided,
-            " --suggest",
-            if with_tracks {
-                "images to match that would join parts, and how much has to come of it"
-            } else {
-                "pairs to match that would join parts"
+}
+
+/// No pair has the inliers that are asked for.
+fn without_pairs(file: &File, found: &Overview, facts: &DatabaseFacts) -> Next {
+    if let Some(enough) = found.weak_pairs() {
+        let count = &*enough.to_string();
+        let mapping = ["--image_path", "images", "--output_path", "sparse"];
+        let weaker = [&mapping[..], &["--GlobalMapper.min_num_matches", count]].concat();
+        let file = File {
+            options: &ReadOptions {
+                min_inliers: Some(enough),
+                ..file.options.clone()
             },
-        ));
-    }
-    let untried = found.has_suggestions() || found.is_one_part();
-    if untried && with_tracks && found.averaging().is_some_and(|parts| !parts.whole) {
-        next.push(advise(
-            " --model calibrated",
-            " --suggest",
-            "pairs to match that would join parts of the pairs",
-        ));
-    }
-    if let Some(image) = found.outside().filter(|_| single) {
-        next.push(advise(
-            &decided,
-            &format!(" --explain {}", shell(&image)),
-            "an image outside the largest part, and what it would need",
-        ));
-    }
-    next.extend(weak);
-    next
-}
-
-/// What to do where no pair has the inliers that are asked for, and so many would be enough.
-fn weaker(file: &str, enough: u32, options: &ReadOptions) -> [Next; 2] {
-    let weaker = ReadOptions {
-        min_inliers: Some(enough),
-        ..options.clone()
-    };
-    [
-        Next {
-            command: format!("verify overview {file}{}", options_of(&weaker)),
-            purpose: "the same, with pairs of so few inliers",
-        },
-        Next {
-            command: format!(
-                "colmap global_mapper --database_path {file} --image_path images --output_path sparse \
-                 --GlobalMapper.min_num_matches {enough}"
+            ..*file
+        };
+        return Next {
+            commands: vec![
+                file.verify("overview", &[], &[], "forecasts with such pairs"),
+                file.colmap("global_mapper", &weaker, "maps with such pairs"),
+            ],
+            expect: format!(
+                "all that was verified hangs together with {count} inliers, and pairs of so few are often wrong"
             ),
-            purpose: "global mapping with such pairs; incremental mapping asks for more points besides",
+            by_hand: None,
+        };
+    }
+    let all = facts.images * facts.images.saturating_sub(1) / 2;
+    match facts.pairs < all {
+        true => Next {
+            commands: vec![file.colmap("exhaustive_matcher", &[], "matches all pairs")],
+            expect: format!(
+                "the other {} matched; if none gets {} inliers, photographs overlap too little",
+                counted(all - facts.pairs, "pair"),
+                facts.min_inliers
+            ),
+            by_hand: None,
         },
-    ]
+        false => Next {
+            by_hand: Some(
+                "take photographs that overlap more, or match with other features".into(),
+            ),
+            expect: "nothing of these matches: every pair was tried".to_owned(),
+            commands: Vec::new(),
+        },
+    }
 }
 
-/// The options that say which tracks count, as they are written.
-fn words_of_tracks(read: TrackOptions) -> String {
-    let (default, mut text) = (TrackOptions::default(), String::new());
-    if read.min_views != default.min_views {
-        text += &format!(" --min-views {}", read.min_views);
+/// Focal lengths are guesses, each for an image of its own.
+fn guessed() -> Next {
+    let words = |words: &[&str], why: &str| Do {
+        command: words.iter().map(ToString::to_string).collect(),
+        why: why.into(),
+    };
+    let new = ["--database_path", "shared.db"];
+    let extract = ["--image_path", "images", "--ImageReader.single_camera", "1"];
+    let extract = [&["colmap", "feature_extractor"][..], &new, &extract].concat();
+    let matches = [&["colmap", "exhaustive_matcher"][..], &new].concat();
+    Next {
+        commands: vec![
+            words(&extract, "extracts features with one camera for all images"),
+            words(&matches, "matches them"),
+        ],
+        expect: "one focal length for all, which mappers find, if one camera took them at one zoom"
+            .to_owned(),
+        by_hand: None,
     }
-    if read.max_spread != default.max_spread {
-        text += &format!(" --max-spread {}", read.max_spread);
-    }
-    if !read.rigs {
-        text += " --no-rigs";
-    }
-    text
 }
 
-/// The options by which graphs were read, as they are written.
-fn options_of(read: &ReadOptions) -> String {
-    let mut text = String::new();
-    if let Some(format) = read.format {
-        text += &format!(" --format {format}");
+/// Pairs that are left to match.
+fn to_match(file: &File, found: &Overview) -> Option<Next> {
+    let suggested = found.joints.suggestions.iter().flatten();
+    let open = suggested.filter(|one| !one.open.is_empty());
+    let most = open.map(|one| one.images).max()?;
+    let mut options = match found.tracks {
+        Some(_) => vec!["--tracks"],
+        None => vec!["--model", "calibrated"],
+    };
+    options.extend(["--suggest=30", "--write", LIST]);
+    let why = "writes the pairs to match, the most promising first";
+    let mut commands = vec![file.verify("advise", &[], &options, why)];
+    if found.facts().is_some() {
+        let list = ["--match_list_path", LIST];
+        commands.push(file.colmap(
+            "matches_importer",
+            &list,
+            "matches and verifies these pairs",
+        ));
     }
-    if let Some(variable) = &read.variable {
-        text += &format!(" --variable {}", shell(variable));
+    let all = all_of(most, found.wanted.of);
+    let now = most_of(found)
+        .map(|(mapper, images, _)| format!("; until then {mapper} mapping places {images}"));
+    Some(Next {
+        commands,
+        expect: format!(
+            "{all} in one part if they overlap{}",
+            now.unwrap_or_default()
+        ),
+        by_hand: None,
+    })
+}
+
+/// The mapper that makes most of a database, how many images its first model has, and the command of COLMAP.
+fn most_of(found: &Overview) -> Option<(&'static str, usize, &'static str)> {
+    let foreseen = found
+        .mappers
+        .as_ref()
+        .filter(|_| found.no_model().is_none())?;
+    let first = foreseen.global.models.first();
+    let of_global = first.map_or(0, |model| model.images.len());
+    let first = foreseen.incremental.models.first();
+    let of_incremental = first.map_or(0, |model| model.images.len());
+    let has_global = has_global_mapper(found.facts()?.version);
+    let most = match of_global > of_incremental && has_global {
+        true => ("global", of_global, "global_mapper"),
+        false => ("incremental", of_incremental, "mapper"),
+    };
+    (most.1 > 0).then_some(most)
+}
+
+/// Nothing is left to match: which mapper makes most of it.
+fn map(file: &File, found: &Overview) -> Next {
+    if found.mappers.is_none() {
+        return of_no_database(file, found);
     }
-    if let Some(pipeline) = read.pipeline {
-        text += &format!(" --pipeline {pipeline}");
+    let by_hand = by_hand(found);
+    let Some((name, images, mapper)) = most_of(found) else {
+        let other = "take photographs from other places: step aside, and do not turn on the spot";
+        return Next {
+            commands: Vec::new(),
+            by_hand: by_hand.or_else(|| Some(other.into())),
+            expect: "until then neither mapper makes a model".to_owned(),
+        };
+    };
+    let mapping = ["--image_path", "images", "--output_path", "sparse"];
+    let after = match () {
+        () if found.doubts().iter().any(|doubt| doubt.refutes) => "the warning holds for it",
+        () if !found.determined() => "what is outside stays outside",
+        () => "look at it: no forecast sees look-alikes",
+    };
+    let why = format!("{name} mapping makes most of these matches");
+    let images = all_of(images, found.wanted.of);
+    Next {
+        commands: vec![file.colmap(mapper, &mapping, &why)],
+        by_hand,
+        expect: format!("likely {images} in one model; {after}"),
     }
-    if let Some(count) = read.min_inliers {
-        text += &format!(" --min-inliers {count}");
+}
+
+/// Where a photograph is missing.
+fn by_hand(found: &Overview) -> Option<String> {
+    let [one, other] = &found.joints.photograph.as_ref()?.between;
+    Some(format!(
+        "photograph what lies between {one} and {other}: nothing is left to match"
+    ))
+}
+
+/// The models of a folder.
+fn of_models(file: &File, found: &Overview) -> Next {
+    let others = found.beside.iter().map(|(path, _)| &**path);
+    let others: Vec<&str> = others.collect();
+    Next {
+        commands: vec![file.verify(
+            "merge",
+            &[],
+            &others[..1],
+            "says whether what two models share fixes one against the other",
+        )],
+        expect: "the command that merges the two, or matches that are missing between them"
+            .to_owned(),
+        by_hand: None,
     }
+}
+
+/// Lists of pairs, models, and files of other pipelines.
+fn of_no_database(file: &File, found: &Overview) -> Next {
+    let by_hand = by_hand(found);
+    let (commands, expect) = match (&found.tracks, found.is_one_part()) {
+        (Some(_), true) => (
+            Vec::new(),
+            "nothing to mend: its tracks hold all images together",
+        ),
+        (Some(_), false) if file.is_model => (
+            vec![file.verify(
+                "split",
+                &[],
+                &["parts/"],
+                "writes each part as a model of its own",
+            )],
+            "models each of which is what its tracks determine",
+        ),
+        (Some(_), false) => (
+            vec![file.verify(
+                "export",
+                &[],
+                &["parts/", "--tracks"],
+                "writes the images of each part",
+            )],
+            "lists of images, each of which a mapper places right by itself",
+        ),
+        (None, true) => (
+            vec![file.verify(
+                "advise",
+                &[],
+                &["--model", "calibrated", "--surplus"],
+                "says which pairs the rest checks",
+            )],
+            "the pairs in which an error would not show",
+        ),
+        (None, false) => (
+            vec![file.verify(
+                "export",
+                &[],
+                &["parts/", "--model", "calibrated"],
+                "writes the images of each part",
+            )],
+            "lists of images, each of which is determined by itself",
+        ),
+    };
+    Next {
+        commands,
+        by_hand,
+        expect: expect.to_owned(),
+    }
+}
+
+/// The options by which a file was read, as they are written.
+fn options_of(read: &ReadOptions) -> Vec<String> {
+    let mut words = Vec::new();
+    let mut say = |option: &str, value: Option<String>| {
+        if let Some(value) = value {
+            words.extend([option.to_owned(), value]);
+        }
+    };
+    say("--format", read.format.map(|format| format.to_string()));
+    say("--variable", read.variable.clone());
+    say(
+        "--pipeline",
+        read.pipeline.map(|pipeline| pipeline.to_string()),
+    );
+    say(
+        "--min-inliers",
+        read.min_inliers.map(|count| count.to_string()),
+    );
     let list = &read.list;
-    if let Some(columns) = &list.columns {
-        text += &format!(" --columns {}", shell(&columns.to_string()));
+    say("--columns", list.columns.as_ref().map(ToString::to_string));
+    say(
+        "--min-weight",
+        list.min_weight.as_ref().map(ToString::to_string),
+    );
+    let default = TrackOptions::default();
+    let tracks = read.tracks.unwrap_or_default();
+    let other = |value: u32, usual: u32| (value != usual).then(|| value.to_string());
+    say("--min-views", other(tracks.min_views, default.min_views));
+    say("--max-spread", other(tracks.max_spread, default.max_spread));
+    for (option, is_said) in [
+        ("--skip-loops", list.skip_loops),
+        ("--no-rigs", !tracks.rigs),
+    ] {
+        if is_said {
+            words.push(option.to_owned());
+        }
     }
-    if let Some(least) = &list.min_weight {
-        text += &format!(" --min-weight {least}");
-    }
-    if list.skip_loops {
-        text += " --skip-loops";
-    }
-    text
+    words
 }

@@ -1,8 +1,7 @@
-//! What pairs and tracks of one input determine, on one screen, and the same in JSON.
+//! What pairs and tracks of one input determine, in full and in JSON.
 //!
-//! In: reports about the graphs of an input. Out: their verdicts side by side, and what follows for
-//! mapping (docs/reconstruction.md, 'Overview'): no more than theory 4 and 12 prove, and what was
-//! seen of COLMAP's mappers.
+//! In: reports about the graphs of an input. Out: whether they promise all images, what makes that doubtful, and
+//! their verdicts side by side (docs/reconstruction.md, 'Overview'): no more than theory 4 and 12 prove.
 
 use super::database::DatabaseLine;
 use super::json::{AnswerLine, GraphLine, write_line};
@@ -12,32 +11,28 @@ use super::{
     Report, bottlenecks, condition, counted, database, mappers, part_names, size_of, text, tracks,
 };
 use crate::advice::{joints as write_joints, photograph, suggestions as write_suggestions};
-use crate::assumptions::{BaseLines, Scope};
+use crate::assumptions::BaseLines;
 use crate::intrinsics::IntrinsicsLine;
-use crate::mappers::WithoutBaseLine;
+use crate::shown::several;
 use serde::Serialize;
 use std::cell::OnceCell;
 use std::collections::HashMap;
 use std::io::{self, Write};
 use std::time::Duration;
-use viewcert::graph::UnionFind;
-use viewcert::wording::printable;
+use viewcert::graph::{Adjacency, UnionFind, biconnected_components};
 use viewcert_advice::Advice;
 use viewcert_advice::degenerate::Narrow;
 use viewcert_advice::mapper::{Foreseen, Sees};
 use viewcert_advice::named::Suggestion;
 use viewcert_formats::colmap::{DatabaseFacts, Groups, Pipeline};
-use viewcert_formats::{NamedGraph, ReadAs, TrackOptions};
-
-/// How many parts are shown with their sizes.
-const SHOWN: usize = 8;
+use viewcert_formats::{NamedGraph, ReadAs};
 
 /// How many gaps are shown with what to match.
 const GAPS: usize = 3;
 
 /// Where words begin, and where lines end.
 const MARGIN: usize = 14;
-const WIDTH: usize = 100;
+const WIDTH: usize = 96;
 
 /// Everything that is found about one input; at least one of `pairs` and `tracks` is there.
 pub struct Overview<'a> {
@@ -67,8 +62,10 @@ pub struct Overview<'a> {
     pub parts: OnceCell<Option<Parts>>,
     /// Parts that no pairs with a base line hold together.
     pub without_base_line: Vec<WithoutBaseLine>,
-    /// Commands that lead on from here.
-    pub next: Vec<Next>,
+    /// The other models of the folder that was named.
+    pub beside: Vec<(String, usize)>,
+    /// What to do next, and what to expect of it.
+    pub next: Next,
     /// How long it took.
     pub time: Duration,
 }
@@ -80,17 +77,36 @@ pub struct Wanted {
     /// How many there are together, with a pair or without.
     all: u32,
     /// The same two numbers in images, of which several may be one camera.
-    count: usize,
-    of: usize,
+    pub(crate) count: usize,
+    pub(crate) of: usize,
 }
 
-/// A command, and what it tells.
-#[derive(Serialize)]
+/// What to do next.
+#[derive(Default)]
 pub struct Next {
-    /// For a POSIX shell.
-    pub command: String,
-    /// What it tells.
-    pub purpose: &'static str,
+    /// Commands, one after another.
+    pub commands: Vec<Do>,
+    /// What to do where no command helps.
+    pub by_hand: Option<String>,
+    /// What to expect of it.
+    pub expect: String,
+}
+
+/// A command, and why.
+#[derive(Serialize)]
+pub struct Do {
+    /// Its words.
+    pub command: Vec<String>,
+    /// What it does for whom.
+    pub why: String,
+}
+
+/// What makes a promise doubtful.
+pub(crate) struct Doubt {
+    /// A line or two.
+    pub(crate) words: String,
+    /// Whether nothing is promised then, so that the exit code is 1.
+    pub(crate) refutes: bool,
 }
 
 impl Wanted {
@@ -123,7 +139,7 @@ impl Wanted {
     }
 
     /// "all 15 images", "15 of 16 images".
-    fn words(&self) -> String {
+    pub(crate) fn words(&self) -> String {
         match self.count == self.of {
             true => format!("all {}", counted(self.count, "image")),
             false => format!("{} of {}", self.count, counted(self.of, "image")),
@@ -139,9 +155,9 @@ pub struct Parts {
     /// With how many images a component is a part.
     least: usize,
     /// The images of each, falling; of images that are one camera this.
-    images: Vec<Vec<u32>>,
+    pub(crate) images: Vec<Vec<u32>>,
     /// How many images each has.
-    sizes: Vec<usize>,
+    pub(crate) sizes: Vec<usize>,
     /// Pairs that are components by themselves.
     single_pairs: usize,
     /// How many of the wanted images are in no part.
@@ -190,15 +206,13 @@ impl Parts {
     }
 
     /// "2 parts (6, 6 images)", and what is in none of them.
-    fn words(&self) -> String {
-        let sizes = self.sizes.iter();
-        let mut shown: Vec<String> = sizes.take(SHOWN).map(|size| size.to_string()).collect();
-        if self.images.len() > SHOWN {
-            shown.push(format!("{} more", self.images.len() - SHOWN));
-        }
+    pub(crate) fn words(&self) -> String {
         let mut words = match self.images.len() {
             0 => format!("no part of {} images or more", self.least),
-            count => format!("{} ({} images)", counted(count, "part"), shown.join(", ")),
+            count => {
+                let sizes = several(&self.sizes, ", ");
+                format!("{} ({sizes} images)", counted(count, "part"))
+            }
         };
         if self.single_pairs > 0 {
             words += &format!(", {}", counted(self.single_pairs, "single pair"));
@@ -212,7 +226,7 @@ impl Parts {
 
 impl Overview<'_> {
     /// The report that decides: of the tracks, or without any of the calibrated pairs.
-    fn decisive(&self) -> Option<&Report<'_>> {
+    pub(crate) fn decisive(&self) -> Option<&Report<'_>> {
         let calibrated = || self.pairs.as_ref().map(|[_, calibrated]| calibrated);
         self.tracks.as_ref().or_else(calibrated)
     }
@@ -227,28 +241,22 @@ impl Overview<'_> {
     }
 
     /// What pairwise directions determine, if there are pairs.
-    pub fn averaging(&self) -> Option<Parts> {
+    fn averaging(&self) -> Option<Parts> {
         let [_, calibrated] = self.pairs.as_ref()?;
         Some(Parts::new(calibrated, &self.wanted))
     }
 
-    /// Whether the tracks, or without any the calibrated pairs, determine all images: none may be
-    /// without a pair, or with a focal length that is a guess and that mappers do not find, pairs with a
-    /// base line have to hold them together, and nothing rests on turns of frames.
+    /// Whether the tracks, or without any the calibrated pairs, determine all images, mappers make something of
+    /// it, and no doubt refutes it.
     pub fn determined(&self) -> bool {
-        let is_seen_to_fail = self.facts().is_some_and(|facts| facts.axes_parallel);
-        let scope = self.decisive().map(|report| report.scope);
-        self.is_promised()
-            && self.guessed() == 0
-            && self.no_model().is_none()
-            && !is_seen_to_fail
-            && !scope.is_some_and(Scope::needs_turns)
+        let is_refuted = self.doubts().iter().any(|doubt| doubt.refutes);
+        self.is_promised() && self.no_model().is_none() && !is_refuted
     }
 
-    /// The same, whatever focal lengths are, and whether mappers make anything of it.
+    /// The same, whatever mappers make of it, and whatever is doubtful.
     pub(crate) fn is_promised(&self) -> bool {
         let all_paired = self.wanted.images.len() == self.wanted.all as usize;
-        all_paired && self.is_one_part() && self.without_base_line.is_empty()
+        all_paired && self.is_one_part()
     }
 
     /// Finds the parts that no pairs with a base line hold together; `groups` splits images by such pairs.
@@ -279,7 +287,7 @@ impl Overview<'_> {
     }
 
     /// How many images have a focal length that is a guess and that mappers do not find.
-    fn guessed(&self) -> usize {
+    pub(crate) fn guessed(&self) -> usize {
         self.facts().map_or(0, |facts| facts.focal_guessed)
     }
 
@@ -288,27 +296,68 @@ impl Overview<'_> {
         self.decisive().map_or_else(String::new, condition_of)
     }
 
-    /// The same of what pairs alone determine.
-    fn condition_of_pairs(&self) -> String {
-        let pairs = self.pairs.as_ref();
-        pairs.map_or_else(String::new, |[_, calibrated]| condition_of(calibrated))
-    }
-
-    /// What the database's own data, or its rigs, make doubtful.
-    fn doubts(&self) -> impl Iterator<Item = &'static str> {
+    /// What makes the promise doubtful, the heaviest first. What else contradicts the pairs belongs in front.
+    pub(crate) fn doubts(&self) -> Vec<Doubt> {
+        let refutes = |words: String| Doubt {
+            words,
+            refutes: true,
+        };
+        let base_lines = self.without_base_line.iter().map(WithoutBaseLine::words);
+        let guessed = self.guessed();
+        let guessed = (guessed > 0).then(|| {
+            format!(
+                "{} a guessed focal length of {}, which mappers rarely find: they place such images wrong silently",
+                match guessed {
+                    1 => "1 image has".to_owned(),
+                    count => format!("{count} images have"),
+                },
+                if guessed == 1 { "its own" } else { "their own" },
+            )
+        });
         let axes = self.facts().is_some_and(|facts| facts.axes_parallel);
-        let axes = axes.then_some(
-            "the optical axes of all images are parallel, as of a nadir flight (measured, by the relative \
-             rotations): focal length and heights scale together, and mappers keep their guess; give the \
-             focal length (--ImageReader.camera_params), or tilt some images by a degree or more",
-        );
+        let axes = axes.then(|| {
+            "the optical axes of all images are parallel, as of a nadir flight (measured): focal length and heights \
+             scale together, and mappers keep their guess (give it: --ImageReader.camera_params)"
+                .to_owned()
+        });
         let scope = self.decisive().map(|report| report.scope);
         let turns = scope.filter(|scope| scope.needs_turns()).map(|_| {
-            "parts hang together by base lines of rigs alone, which tell nothing if frames hardly turn, as of a \
-             car or of a drone on one line: both mappers then misplace these parts silently; see in a model \
-             whether the rotations of frames differ by several degrees, about several axes"
+            "parts hang together by base lines of rigs alone: if frames hardly turn, as of a car on one line, both \
+             mappers misplace these parts silently"
+                .to_owned()
         });
-        axes.into_iter().chain(turns)
+        let refuting = base_lines.chain(guessed).chain(axes).chain(turns);
+        let lesser = bottlenecks::warnings(&self.narrow).into_iter();
+        let lesser = lesser.chain(bottlenecks::few(&self.narrow));
+        let lesser = lesser.chain(self.unchecked()).map(|words| Doubt {
+            words,
+            refutes: false,
+        });
+        refuting.map(refutes).chain(lesser).collect()
+    }
+
+    /// The pairs that no cycle holds: a wrong one contradicts nothing. Frames may check pairs, and what alone
+    /// holds groups together is said before.
+    fn unchecked(&self) -> Option<String> {
+        let input = self.pairs.as_ref()?[1].input;
+        let mut alone = Vec::new();
+        biconnected_components(Adjacency::new(&input.graph).lists(), |nodes| {
+            if let [a, b] = *nodes {
+                alone.push([a.min(b), a.max(b)]);
+            }
+        });
+        let known = self.narrow.few.iter().filter(|few| few.pairs.len() == 1);
+        if input.frames.is_some() || alone.len() == known.count() {
+            return None;
+        }
+        let [a, b] = alone.iter().min()?.map(|v| input.labels.label(v));
+        let all = counted(input.graph.edges().len(), "pair");
+        Some(match alone.len() {
+            1 => format!("no other pair checks {a} {b}: an error of it cannot show"),
+            count => format!(
+                "no other pair checks {count} of {all}, as {a} {b}: an error of these cannot show"
+            ),
+        })
     }
 
     /// Why mappers make nothing of a database, where that is known beforehand.
@@ -365,17 +414,17 @@ impl Overview<'_> {
     }
 
     /// Whether they determine all images that have a pair.
-    pub fn is_one_part(&self) -> bool {
+    pub(crate) fn is_one_part(&self) -> bool {
         self.parts().is_some_and(|parts| parts.whole)
     }
 
     /// The parts of what decides.
-    fn parts(&self) -> Option<Parts> {
+    pub(crate) fn parts(&self) -> Option<Parts> {
         self.by_tracks().or_else(|| self.averaging())
     }
 
     /// Every image that is in no part.
-    fn in_no_part(&self) -> Vec<u32> {
+    pub(crate) fn in_no_part(&self) -> Vec<u32> {
         let mut outside = vec![true; self.wanted.all as usize];
         for image in self
             .parts()
@@ -389,135 +438,17 @@ impl Overview<'_> {
             .collect()
     }
 
-    /// Whether there is a part at all in what decides.
-    pub fn has_parts(&self) -> bool {
-        self.parts().is_some_and(|parts| !parts.images.is_empty())
-    }
-
-    /// Whether anything is suggested to be matched.
-    pub(crate) fn has_suggestions(&self) -> bool {
-        self.joints.suggestions.iter().any(|all| !all.is_empty())
-    }
-
-    /// An image that is not in the largest part.
-    pub fn outside(&self) -> Option<String> {
-        let report = self.decisive()?;
-        let parts = self.parts()?;
-        let largest = parts.images.first().map_or(&[][..], Vec::as_slice);
-        let mut wanted = self.wanted.images.iter().copied();
-        let outside = wanted.find(|v| largest.binary_search(v).is_err());
-        let mut all = 0..self.wanted.all;
-        let image = outside.or_else(|| all.find(|v| largest.binary_search(v).is_err()))?;
-        Some(report.input.labels.label(image).into_owned())
-    }
-
-    /// What follows for each kind of mapping, in words.
-    fn follows(&self) -> Follows {
-        let all = self.wanted.words();
-        let (condition, of_pairs) = (self.condition(), self.condition_of_pairs());
-        let averaging = match self.averaging() {
-            None => {
-                "of pairwise directions: tracks do not tell; it takes a list of pairs".to_owned()
-            }
-            Some(_) if self.wanted.images.is_empty() => {
-                "of pairwise directions: there are no pairs".into()
-            }
-            Some(parts) if parts.whole => {
-                format!("of pairwise directions: the pairs determine {all} {of_pairs}")
-            }
-            Some(parts) => format!(
-                "of pairwise directions: {of_pairs}, the pairs determine {}, and not how these lie against \
-                 each other",
-                parts.words()
-            ),
-        };
-        let [global, incremental] = match self.by_tracks() {
-            None => [
-                "solves for the positions of cameras and points from tracks, which are not here: \
-                 pairs alone do not tell"
-                    .to_owned(),
-                "starts a new model where it cannot go on; pairs alone do not tell where".to_owned(),
-            ],
-            Some(parts) if parts.whole => [
-                format!("the tracks determine {all} at generic places {condition}"),
-                "starts a new model where it cannot go on; tracks that determine everything are necessary \
-                 for one model, not sufficient"
-                    .to_owned(),
-            ],
-            Some(parts) => [
-                format!(
-                    "can place right against each other only what is in one part: {}; it may return one model \
-                     in which different parts are silently misplaced (seen on synthetic clusters, \
-                     COLMAP 4.2)",
-                    parts.words()
-                ),
-                "starts a new model where it cannot go on; that tracks determine a part is necessary \
-                 there, not sufficient"
-                    .to_owned(),
-            ],
-        };
-        Follows {
-            global: global + &self.other_least(),
-            incremental,
-            averaging,
-        }
-    }
-
-    /// Where tracks count that global mapping does not take, or the other way round.
-    fn other_least(&self) -> String {
-        let usual = TrackOptions::default().min_views;
-        let facts = self.tracks.as_ref().and_then(|report| report.input.tracks);
-        match facts {
-            Some(facts) if facts.min_views != usual => format!(
-                "; COLMAP's takes tracks of {usual} images and more, and these are of {} and more",
-                facts.min_views
-            ),
-            _ => String::new(),
-        }
-    }
-
-    /// Writes the screen.
+    /// Writes what the first screen leaves out.
     ///
     /// # Errors
     /// Those of the writer.
-    pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
-        writeln!(out, "{}", printable(self.name))?;
-        for part in &self.without_base_line {
-            wrapped(out, "warning", &part.words())?;
-        }
+    pub(crate) fn write_rest(&self, out: &mut impl Write) -> io::Result<()> {
         writeln!(out, "  read as     {}", self.read)?;
-        match (self.no_model(), &self.mappers) {
-            (Some(why), _) => wrapped(out, "mappers", &why)?,
-            (None, Some(foreseen)) => mappers::write(out, foreseen, &self.condition(), wrapped)?,
-            (None, None) => {}
-        }
-        if let guessed @ 1.. = self.guessed() {
-            let (images, have) = match guessed {
-                1 => (
-                    "1 image has a focal length that is a guess".to_owned(),
-                    "a camera",
-                ),
-                count => (
-                    format!("{count} images have focal lengths that are guesses"),
-                    "cameras",
-                ),
-            };
-            let words = format!(
-                "{images}, and {have} that no two others have: mappers rarely find these, and place images \
-                 wrong silently; give focal lengths (--ImageReader.camera_params), or one camera for all \
-                 images if it was one (--ImageReader.single_camera 1)"
-            );
-            wrapped(out, "warning", &words)?;
-        }
-        for doubt in self.doubts() {
-            wrapped(out, "warning", doubt)?;
-        }
         if let Some([projective, calibrated]) = &self.pairs {
             match &projective.input.database {
                 Some(facts) => database::write(out, facts)?,
                 None => writeln!(out, "  graph       {}", size_of(projective.input))?,
             }
-            self.write_notes(out)?;
             for (model, report) in [("projective", projective), ("calibrated", calibrated)] {
                 writeln!(out, "  {model}  pairs alone: {}", text::answer(report))?;
                 text::write_components(out, report)?;
@@ -533,9 +464,6 @@ impl Overview<'_> {
                 if let Some(facts) = &report.input.tracks {
                     tracks::write_size(out, facts)?;
                 }
-                if self.pairs.is_none() {
-                    self.write_notes(out)?;
-                }
                 writeln!(out, "  positions   {}", text::answer(report))?;
                 if let Some(found) = report.scope.base_lines() {
                     writeln!(out, "  base lines  {}", found.words())?;
@@ -545,42 +473,18 @@ impl Overview<'_> {
             (None, Some(reason)) => writeln!(out, "  tracks      none: {reason}")?,
             (None, None) => {}
         }
+        let mut notes = self.notes.iter();
+        notes.try_for_each(|note| writeln!(out, "  note        {note}"))?;
         self.write_parts(out)?;
         self.write_joints(out)?;
         self.write_suggested(out)?;
-        bottlenecks::write(out, &self.narrow, wrapped)?;
-        let follows = self.follows();
-        let mut words = vec![
-            format!("global: {}", follows.global),
-            format!("incremental: {}", follows.incremental),
-            format!("averaging {}", follows.averaging),
-        ];
-        // The first lines have said it.
-        let are_parts = |foreseen: &Foreseen| {
-            let mut models = foreseen.global.models.iter();
-            models.any(|model| model.parts.len() > 1)
-        };
-        if self.no_model().is_none() && self.mappers.as_ref().is_some_and(are_parts) {
-            words.remove(0);
+        if let Some(foreseen) = self.mappers.as_ref().filter(|_| self.no_model().is_none()) {
+            for words in mappers::beginnings(&foreseen.incremental) {
+                wrapped(out, "begins at", &words)?;
+            }
         }
-        for (k, words) in words.iter().enumerate() {
-            wrapped(out, if k == 0 { "follows" } else { "" }, words)?;
-        }
-        for (k, next) in self.next.iter().enumerate() {
-            let title = if k == 0 { "next" } else { "" };
-            writeln!(out, "  {title:<12}{}", next.command)?;
-            writeln!(out, "                # {}", next.purpose)?;
-        }
-        writeln!(
-            out,
-            "  time        {}",
-            text::seconds(self.time.as_micros())
-        )
-    }
-
-    fn write_notes(&self, out: &mut impl Write) -> io::Result<()> {
-        let mut notes = self.notes.iter();
-        notes.try_for_each(|note| writeln!(out, "  note        {note}"))
+        let time = text::seconds(self.time.as_micros());
+        writeln!(out, "  time        {time}")
     }
 
     fn write_parts<W: Write>(&self, out: &mut W) -> io::Result<()> {
@@ -589,23 +493,19 @@ impl Overview<'_> {
         };
         let named = part_names::parts(report.input, &parts.images);
         let outside = self.named(&self.in_no_part());
-        let models = self
-            .mappers
-            .iter()
-            .flat_map(|mappers| &mappers.incremental.outside);
-        let sees: HashMap<&str, &Sees> = models.map(|sees| (&sees.image[..], sees)).collect();
-        let note = |image: &str| {
-            let sees = sees.get(image).filter(|sees| sees.sees > 0)?;
-            Some(format!(
-                "sees {} of the {} points it needs",
-                sees.sees, sees.needs
-            ))
-        };
-        part_names::write(out, &named, &outside, note, wrapped)
+        part_names::write(out, &named, &outside, &self.sees(), wrapped)
+    }
+
+    /// How much of a simulated model each image outside sees.
+    pub(crate) fn sees(&self) -> HashMap<&str, &Sees> {
+        let models = self.mappers.iter();
+        let all = models.flat_map(|mappers| &mappers.incremental.outside);
+        let some = all.filter(|sees| sees.sees > 0);
+        some.map(|sees| (&sees.image[..], sees)).collect()
     }
 
     /// The names of images.
-    fn named(&self, images: &[u32]) -> Vec<String> {
+    pub(crate) fn named(&self, images: &[u32]) -> Vec<String> {
         let input = self.decisive().map(|report| report.input);
         let names = input.map(|input| part_names::names(input, images));
         names.unwrap_or_default()
@@ -707,8 +607,9 @@ impl Overview<'_> {
             narrow: &self.narrow,
             mappers: self.mappers.as_ref().filter(|_| self.no_model().is_none()),
             no_model: self.no_model(),
-            follows: self.follows(),
-            next: &self.next,
+            do_next: &self.next.commands,
+            by_hand: self.next.by_hand.as_deref(),
+            expect: &self.next.expect,
             seconds: self.time.as_secs_f64(),
         };
         let seed = decided.map(|report| report.verdict.seed);
@@ -750,17 +651,12 @@ struct Line<'a> {
     /// Why mappers make nothing, where that is known beforehand.
     #[serde(skip_serializing_if = "Option::is_none")]
     no_model: Option<String>,
-    follows: Follows,
-    next: &'a [Next],
+    do_next: &'a [Do],
+    /// What to do where no command helps.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    by_hand: Option<&'a str>,
+    expect: &'a str,
     seconds: f64,
-}
-
-/// What follows, in words.
-#[derive(Serialize)]
-struct Follows {
-    global: String,
-    incremental: String,
-    averaging: String,
 }
 
 #[derive(Serialize)]
@@ -781,6 +677,41 @@ struct PositionLine<'a> {
     base_lines: Option<&'a BaseLines>,
 }
 
+/// A part whose images no pairs with a base line hold together.
+#[derive(Serialize)]
+pub struct WithoutBaseLine {
+    /// The part, from 1.
+    pub(crate) part: usize,
+    /// The images that such pairs connect, larger groups first.
+    pub(crate) groups: Vec<Vec<String>>,
+    /// How many pairs lead from one group to another.
+    pub(crate) pairs: usize,
+    /// Their configurations.
+    pub(crate) configurations: Vec<&'static str>,
+}
+
+impl WithoutBaseLine {
+    /// What that means.
+    pub(crate) fn words(&self) -> String {
+        let sizes: Vec<usize> = self.groups.iter().map(Vec::len).collect();
+        let [pairs, images] =
+            [(self.pairs, "pair"), (sizes.iter().sum(), "image")].map(|(n, of)| counted(n, of));
+        let configurations = self.configurations.join(", ");
+        let part = self.part;
+        let (between, nothing) = match sizes[0] {
+            1 => (String::new(), "where the cameras are"),
+            _ => (
+                format!("between groups of {} images ", several(&sizes, " + ")),
+                "how the groups lie to each other",
+            ),
+        };
+        format!(
+            "part {part}, {images}: {between}no pair has a base line that shows ({pairs}: {configurations}), \
+             so nothing says {nothing}"
+        )
+    }
+}
+
 /// What the promises of a report rest on.
 fn condition_of(report: &Report) -> String {
     let condition = report.scope.promise(Some(condition::of(report.input)));
@@ -788,7 +719,7 @@ fn condition_of(report: &Report) -> String {
 }
 
 /// Writes words in lines of limited width.
-fn wrapped<W: Write>(out: &mut W, title: &str, words: &str) -> io::Result<()> {
+pub(crate) fn wrapped<W: Write>(out: &mut W, title: &str, words: &str) -> io::Result<()> {
     let mut line = format!("  {title:<11}");
     for word in words.split(' ') {
         if line.len() > MARGIN && line.len() + 1 + word.len() > WIDTH {

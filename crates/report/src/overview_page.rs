@@ -5,6 +5,7 @@ use crate::Report;
 use crate::overview::Overview;
 use crate::page::{self, Foreword};
 use crate::scene::Scene;
+use crate::screen;
 use std::io;
 use viewcert_advice::Advice;
 
@@ -13,8 +14,14 @@ use viewcert_advice::Advice;
 /// # Errors
 /// None that an input can cause.
 pub fn html(overview: &Overview, advice: &Advice) -> io::Result<Vec<u8>> {
-    let mut text = Vec::new();
-    overview.write(&mut text)?;
+    let (mut first, mut rest) = (Vec::new(), Vec::new());
+    screen::write(&mut first, overview, true)?;
+    overview.write_rest(&mut rest)?;
+    first.truncate(first.len() - rest.len());
+    // The name stands above, and a page is the same each time.
+    let [first, rest] = [first, rest].map(|text| String::from_utf8_lossy(&text).into_owned());
+    let first = first.split_once('\n').map_or("", |(_, lines)| lines);
+    let timed = rest.rfind("  time ").unwrap_or(rest.len());
     let pairs = overview.pairs.as_ref().map(|[_, calibrated]| calibrated);
     let report = overview.tracks.as_ref().or(pairs);
     let Some(report) = report else {
@@ -39,7 +46,8 @@ pub fn html(overview: &Overview, advice: &Advice) -> io::Result<Vec<u8>> {
     let foreword = Foreword {
         kind: "What to expect of a reconstruction",
         answer: (format!("{what}."), is_good),
-        text: &String::from_utf8_lossy(&text),
+        text: first,
+        rest: &rest[..timed],
     };
     let mut page = Vec::new();
     page::write(

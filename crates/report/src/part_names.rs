@@ -2,7 +2,9 @@
 
 use super::counted;
 use serde::Serialize;
+use std::collections::HashMap;
 use std::io::{self, Write};
+use viewcert_advice::mapper::Sees;
 use viewcert_formats::NamedGraph;
 
 /// How many parts, and how many images in none, are shown.
@@ -12,9 +14,9 @@ const OUTSIDE: usize = 40;
 /// A part, by its first and last image in the order of names.
 #[derive(Serialize)]
 pub(crate) struct PartLine {
-    images: usize,
-    first: String,
-    last: String,
+    pub(crate) images: usize,
+    pub(crate) first: String,
+    pub(crate) last: String,
 }
 
 /// The names of all images of some cameras: images of a frame at one place are one camera.
@@ -53,7 +55,7 @@ pub(crate) fn parts(input: &NamedGraph, parts: &[Vec<u32>]) -> Vec<PartLine> {
     parts.iter().filter_map(part).collect()
 }
 
-/// Writes the parts, and the images in none; `note` says more of an image.
+/// Writes the parts, and the images in none, with how much of a model each `sees`.
 ///
 /// # Errors
 /// Those of the writer.
@@ -61,7 +63,7 @@ pub(crate) fn write<W: Write>(
     out: &mut W,
     parts: &[PartLine],
     outside: &[String],
-    note: impl Fn(&str) -> Option<String>,
+    sees: &HashMap<&str, &Sees>,
     wrapped: impl Fn(&mut W, &str, &str) -> io::Result<()>,
 ) -> io::Result<()> {
     for (k, part) in (1..).zip(parts.iter().take(PARTS)) {
@@ -79,10 +81,7 @@ pub(crate) fn write<W: Write>(
     if outside.is_empty() {
         return Ok(());
     }
-    let noted = |name: &String| match note(name) {
-        Some(note) => format!("{name} ({note})"),
-        None => name.clone(),
-    };
+    let noted = |name: &String| noted(name, sees);
     let mut shown: Vec<String> = outside.iter().take(OUTSIDE).map(noted).collect();
     if outside.len() > OUTSIDE {
         shown.push(format!(
@@ -91,4 +90,14 @@ pub(crate) fn write<W: Write>(
         ));
     }
     wrapped(out, "in no part", &shown.join(", "))
+}
+
+/// An image outside, with how much of a model it sees.
+pub(crate) fn noted(name: &str, sees: &HashMap<&str, &Sees>) -> String {
+    match sees.get(name) {
+        Some(Sees { sees, needs, .. }) => {
+            format!("{name} (sees {sees} of the {needs} points it needs)")
+        }
+        None => name.to_owned(),
+    }
 }

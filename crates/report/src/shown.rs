@@ -26,3 +26,12 @@ pub(crate) fn some(words: &[String], between: &str) -> String {
     }
     shown
 }
+
+/// Some numbers, and how many more.
+pub(crate) fn several(sizes: &[usize], between: &str) -> String {
+    let mut shown: Vec<String> = sizes.iter().take(SHOWN).map(usize::to_string).collect();
+    if sizes.len() > SHOWN {
+        shown.push(format!("{} more", sizes.len() - SHOWN));
+    }
+    shown.join(between)
+}

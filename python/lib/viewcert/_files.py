@@ -28,13 +28,13 @@ if TYPE_CHECKING:
 class Overview:
     """What the pairs and tracks of an input determine, and what follows.
 
-    Printed, it is the report; in a notebook, the page with its picture.
+    Printed, it is the report of twelve lines; in a notebook, the page with its picture.
     """
 
     path: Annotated[str, "The input; of one that is open in pycolmap ``'database'`` or ``'reconstruction'``."]
     found: Annotated[Dict[str, Any],
         "What ``verify overview --json`` prints: ``pairs`` and ``tracks`` with their verdicts, ``mappers`` with "
-        "what COLMAP's mappers will make of it, ``next`` with commands."] = field(repr=False)
+        "what COLMAP's mappers will make of it, ``expect`` with what to expect of `do_next`."] = field(repr=False)
     _reading: Dict[str, Any] = field(repr=False)
     _said: Dict[str, str] = field(repr=False, compare=False)
 
@@ -49,6 +49,11 @@ class Overview:
         are guesses."""
         return str(self.found["condition"])
 
+    @property
+    def do_next(self) -> List[Dict[str, Any]]:
+        """What to do next: commands, each with its words in ``command`` and with the reason in ``why``."""
+        return list(self.found["do_next"])
+
     def __str__(self) -> str:
         return self.report()
 
@@ -56,9 +61,9 @@ class Overview:
         page = html.escape(self.page(), quote=True)
         return f'<iframe srcdoc="{page}" style="width: 100%; height: 48em; border: 0"></iframe>'
 
-    def report(self) -> str:
-        """What ``verify overview`` prints."""
-        return in_python(self._as("text"))
+    def report(self, everything: bool = False) -> str:
+        """What ``verify overview`` prints; `everything` as with ``--all``."""
+        return in_python(self._as("all" if everything else "text"))
 
     def page(self) -> str:
         """The web page of ``verify overview --html``, which needs no network."""
@@ -98,7 +103,7 @@ def overview(
     asked = reading(format=format, **options)
     with on_disk(path) as (place, name):
         # A copy is gone afterwards, so that everything is said of it now.
-        kinds = ("json",) if name is None else ("json", "text", "html")
+        kinds = ("json",) if name is None else ("json", "text", "all", "html")
         said = {kind: _native.overview(place, asked, kind).decode().replace(place, name or place) for kind in kinds}
     return Overview(name or place, json.loads(said["json"]), asked, said)
 

@@ -30,24 +30,21 @@ pub(crate) struct Foreword<'a> {
     pub(crate) kind: &'a str,
     /// The answer, and whether it is good.
     pub(crate) answer: (String, bool),
-    /// What the command prints for people, below its first line.
+    /// What the command prints for people, below its first line, and what it prints behind that.
     pub(crate) text: &'a str,
+    pub(crate) rest: &'a str,
 }
 
 impl Foreword<'_> {
     fn html(&self) -> String {
         let (answer, is_good) = &self.answer;
-        // A page is the same each time.
-        let lines = self.text.lines().skip(1);
-        let lines: Vec<&str> = lines.filter(|line| !line.starts_with("  time ")).collect();
         format!(
-            "<div id=\"answer\" class=\"{}\"><p class=\"answer\">{}</p></div>\n<pre id=\"words\">{}</pre>\n",
+            "<div id=\"answer\" class=\"{}\"><p class=\"answer\">{}</p></div>\n<pre id=\"words\">{}</pre>\n\
+             <details><summary>All parts, joints, notes and verdicts</summary><pre id=\"rest\">{}</pre></details>\n",
             if *is_good { "good" } else { "bad" },
             escaped(answer),
-            lines
-                .iter()
-                .map(|line| escaped(line) + "\n")
-                .collect::<String>()
+            escaped(self.text),
+            escaped(self.rest)
         )
     }
 }

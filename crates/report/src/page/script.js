@@ -7,6 +7,7 @@
   const SVG = "http://www.w3.org/2000/svg";
   const MOST_ROWS = 200;
   const SELECTABLE = 500;
+  const LABEL = 11;
 
   // ---- Elements
 
@@ -144,9 +145,14 @@
   const showVerdict = () => {
     const [answer, meaning] = ANSWERS[report.verdict] ?? [report.verdict, ""];
     const element = find("#verdict");
-    element.classList.add(report.verdict === "not-finite-solvable" ? "bad" : "good");
+    // Of photographs a verdict is half an answer: mappers want more.
+    const photographs = "condition" in report;
+    const isGood = report.verdict !== "not-finite-solvable";
+    element.classList.add(!isGood ? "bad" : photographs ? "open" : "good");
     element.append(
-      html("p", { class: "answer", "data-verdict": report.verdict }, answer),
+      html("p", { class: "answer", "data-verdict": report.verdict }, isGood && photographs ? `${answer} ${report.condition}` : answer),
+      "database" in report && !find("#answer")
+        ? html("p", {}, "What the mappers will make of it is another question: ", html("code", {}, "verify overview"), " forecasts it.") : "",
       html("p", {}, meaning),
       html("p", { class: "soft" },
         `This is ${strengthWords(report.strength, report.error_log2)}. It rests on this: ${report.because}.`),
@@ -306,7 +312,27 @@
 
     const whole = picture.viewBox.baseVal;
     const all = { x: whole.x, y: whole.y, width: whole.width, height: whole.height };
-    const view = (x, y, width, height) => picture.setAttribute("viewBox", `${x} ${y} ${width} ${height}`);
+    // Names are as large on every screen; one that would cover another, or end outside, waits for a closer look.
+    const labels = [...picture.querySelectorAll("text")];
+    const legible = () => {
+      const scale = picture.getScreenCTM()?.a;
+      if (!scale) return;
+      for (const label of labels) label.style.fontSize = `${LABEL / scale}px`;
+      const frame = picture.getBoundingClientRect();
+      const shown = [];
+      for (const label of labels) {
+        const box = label.getBoundingClientRect();
+        const isFree = box.left >= frame.left && box.right <= frame.right && !shown.some((other) =>
+          box.left < other.right && other.left < box.right && box.top < other.bottom && other.top < box.bottom);
+        label.style.visibility = isFree ? "visible" : "hidden";
+        if (isFree) shown.push(box);
+      }
+    };
+    const view = (x, y, width, height) => {
+      picture.setAttribute("viewBox", `${x} ${y} ${width} ${height}`);
+      legible();
+    };
+    new ResizeObserver(legible).observe(picture);
     const zoom = (factor, [cx, cy] = [whole.x + whole.width / 2, whole.y + whole.height / 2]) => {
       const width = Math.min(all.width, Math.max(all.width / 40, whole.width * factor));
       const ratio = width / whole.width;
@@ -319,7 +345,9 @@
     for (const button of document.querySelectorAll("[data-zoom]")) {
       button.addEventListener("click", () => actions[button.dataset.zoom]());
     }
-    find(".hint").textContent = "drag to move, Ctrl and the wheel to zoom, click for the neighbours";
+    find(".hint").textContent = matchMedia("(pointer: coarse)").matches
+      ? "tap a camera for its neighbours, + to zoom, then drag to move"
+      : "drag to move, Ctrl and the wheel to zoom, click for the neighbours";
     const point = (event) => {
       const matrix = picture.getScreenCTM().inverse();
       const { x, y } = new DOMPoint(event.clientX, event.clientY).matrixTransform(matrix);
@@ -587,6 +615,8 @@
   // What a member says, in words.
   const told = (member, value) => {
     if (member === "strength" || member === "verdict") return VALUES[value] ?? words(value);
+    // COLMAP writes 4.2.1 as 4020100.
+    if (member === "version") return value < 1e6 ? String(value) : [1e6, 1e4, 100].map((one) => Math.floor(value / one) % 100).join(".");
     const isList = Array.isArray(value) && value.every(Array.isArray);
     if (isList) return value.map((images) => images.join(" – ")).join(", ");
     return words(value);

@@ -1,0 +1,198 @@
+//! What an overview says first: twelve lines at most.
+//!
+//! In: everything that was found about an input. Out: what the mappers will make of it, whether that can be trusted
+//! and under which condition, which images are outside, what to do next, and what to expect of that.
+
+use crate::mappers;
+use crate::next::written;
+use crate::overview::{Overview, Parts, wrapped};
+use crate::part_names::{self, noted};
+use crate::{counted, text};
+use std::io::{self, Write};
+use viewcert::wording::printable;
+
+/// So many lines the first screen has at most.
+const LINES: usize = 12;
+
+/// So many columns the names of images outside may take, and those of parts.
+const NAMES: usize = 72;
+const PARTS: usize = 3;
+
+/// Writes the first screen, and all the rest after it if that is wanted.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write(out: &mut impl Write, found: &Overview, all: bool) -> io::Result<()> {
+    let lead = Vec::from_iter([
+        title(found)?,
+        mappers_of(found)?,
+        line("trust", &trust(found))?,
+    ]);
+    let mut end = Vec::new();
+    outside(&mut end, found)?;
+    for (k, next) in found.next.commands.iter().enumerate() {
+        let title = if k == 0 { "do" } else { "" };
+        writeln!(end, "  {title:<12}{}", written(&next.command))?;
+    }
+    if let Some(words) = &found.next.by_hand {
+        wrapped(&mut end, "by hand", words)?;
+    }
+    wrapped(&mut end, "expect", &found.next.expect)?;
+    let taken: usize = lead.iter().chain([&end]).map(|part| lines(part)).sum();
+    for part in lead {
+        out.write_all(&part)?;
+    }
+    let doubts = found.doubts().into_iter().map(|doubt| {
+        let title = if doubt.refutes { "warning" } else { "look at" };
+        line(title, &doubt.words)
+    });
+    let doubts: Vec<Vec<u8>> = doubts.collect::<io::Result<_>>()?;
+    let mut left = if all {
+        usize::MAX
+    } else {
+        LINES.saturating_sub(taken + 1)
+    };
+    let fits = doubts.iter().take_while(|words| {
+        let fits = lines(words) <= left;
+        left = left.saturating_sub(lines(words));
+        fits
+    });
+    let shown = fits.count();
+    doubts[..shown]
+        .iter()
+        .try_for_each(|words| out.write_all(words))?;
+    out.write_all(&end)?;
+    if all {
+        return found.write_rest(out);
+    }
+    let more = match doubts.len() - shown {
+        0 => String::new(),
+        count => format!("{} to look at, ", counted(count, "more place")),
+    };
+    writeln!(
+        out,
+        "  more        --all: {more}parts, joints, notes, verdicts; --html FILE: a page"
+    )
+}
+
+fn lines(text: &[u8]) -> usize {
+    text.iter().filter(|byte| **byte == b'\n').count()
+}
+
+fn line(title: &str, words: &str) -> io::Result<Vec<u8>> {
+    let mut out = Vec::new();
+    wrapped(&mut out, title, words)?;
+    Ok(out)
+}
+
+/// The input, and which of several models it is.
+fn title(found: &Overview) -> io::Result<Vec<u8>> {
+    let mut out = Vec::new();
+    writeln!(out, "{}", printable(found.name))?;
+    if let [_, ..] = found.beside[..] {
+        let own = found.wanted.words();
+        let others = found
+            .beside
+            .iter()
+            .map(|(path, images)| format!("{} has {}", printable(path), counted(*images, "image")));
+        let words = format!(
+            "the largest model, with {own}; {}",
+            Vec::from_iter(others).join(", ")
+        );
+        wrapped(&mut out, "of several", &words)?;
+    }
+    Ok(out)
+}
+
+/// What mappers will make.
+fn mappers_of(found: &Overview) -> io::Result<Vec<u8>> {
+    let mut out = Vec::new();
+    match (found.no_model(), &found.mappers) {
+        (Some(why), _) => wrapped(&mut out, "mappers", &why)?,
+        (None, Some(foreseen)) => {
+            wrapped(&mut out, "global", &mappers::global(foreseen))?;
+            wrapped(&mut out, "incremental", &mappers::incremental(foreseen))?;
+        }
+        (None, None) if found.tracks.is_some() => {
+            wrapped(
+                &mut out,
+                "mappers",
+                "not foreseen: this holds tracks, and no matches",
+            )?;
+        }
+        (None, None) => wrapped(&mut out, "mappers", "not foreseen: pairs alone do not tell")?,
+    }
+    Ok(out)
+}
+
+/// What is promised, under which condition, or what is not.
+fn trust(found: &Overview) -> String {
+    let Some(report) = found.decisive() else {
+        return String::new();
+    };
+    let what = match &found.tracks {
+        Some(_) => "tracks",
+        None => "pairs",
+    };
+    let condition = found.condition();
+    let warned = match found.doubts().iter().any(|doubt| doubt.refutes) {
+        true => "mind the warning: ",
+        false => "",
+    };
+    let proved = text::strength(report.verdict.components_claim().strength);
+    let parts = found.parts();
+    match &parts {
+        Some(parts) if parts.whole => {
+            let images = found.wanted.words();
+            format!("{warned}the {what} determine {images} {condition} ({proved})")
+        }
+        Some(parts @ Parts { sizes, .. }) if sizes.len() == 1 => {
+            format!(
+                "{warned}the {what} determine {} {condition} ({proved})",
+                parts.words()
+            )
+        }
+        Some(parts) if !parts.sizes.is_empty() => format!(
+            "no: the {what} leave {} free against each other ({proved})",
+            parts.words()
+        ),
+        _ => format!("none: the {what} determine no images against each other"),
+    }
+}
+
+/// The images that are not in the largest part.
+fn outside(out: &mut Vec<u8>, found: &Overview) -> io::Result<()> {
+    let (Some(parts), Some(report)) = (found.parts(), found.decisive()) else {
+        return Ok(());
+    };
+    let mut words = Vec::new();
+    let named = part_names::parts(report.input, &parts.images);
+    for (k, part) in (1..).zip(&named).skip(1).take(PARTS - 1) {
+        let images = counted(part.images, "image");
+        words.push(format!(
+            "part {k}: {} ... {} ({images})",
+            part.first, part.last
+        ));
+    }
+    if named.len() > PARTS {
+        words.push(counted(named.len() - PARTS, "more part"));
+    }
+    let (sees, none) = (found.sees(), found.named(&found.in_no_part()));
+    let mut shown = String::new();
+    for (k, name) in none.iter().enumerate() {
+        if shown.len() > NAMES {
+            shown += &format!(" and {} more", none.len() - k);
+            break;
+        }
+        let between = if k == 0 { "" } else { ", " };
+        shown += &format!("{between}{}", noted(name, &sees));
+    }
+    if !shown.is_empty() {
+        let of = if words.is_empty() { "" } else { "in no part: " };
+        words.push(format!("{of}{shown}"));
+    }
+    match words.is_empty() {
+        true => Ok(()),
+        false => wrapped(out, "outside", &words.join("; ")),
+    }
+}
