@@ -90,7 +90,7 @@ fn title(found: &Overview) -> io::Result<Vec<u8>> {
     let mut out = Vec::new();
     writeln!(out, "{}", printable(found.name))?;
     if let [_, ..] = found.beside[..] {
-        let own = found.wanted.words();
+        let own = counted(found.wanted.of, "image");
         let others = found
             .beside
             .iter()
