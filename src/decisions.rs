@@ -260,7 +260,7 @@ impl Work<'_> {
                     let overview = overview_of(&input.name, &plan.read);
                     writeln!(
                         out,
-                        "  next        {overview} (what the mappers will make of it)"
+                        "  next        what mappers will make of it: {overview}"
                     )?;
                 }
             }

@@ -22,12 +22,6 @@ use viewcert_session::{Session, complain, outputs, printable};
 #[derive(Args)]
 pub struct InputArguments {
     /// Format of the graphs [default: what they can only be, by their content].
-    ///
-    /// A list of pairs has one separator and 2 fields on every line, 3 with a number, or 9 or 14 with
-    /// a relative pose; all labels are integers, or none is a number. A table has a head that names two
-    /// images or nodes, like source,target or image1,image2. Everything else is refused, with what was
-    /// seen. `--format edges` reads the first two fields of every line all the same.
-    /// The first line of every report says how the file was read.
     #[arg(long, value_parser = formats(), help_heading = READING, hide = true)]
     format: Option<Format>,
     /// The columns of a table that hold the pairs, by name or by number, and perhaps that of the

@@ -18,14 +18,14 @@ pub(super) const ARITHMETIC: &str = "Arithmetic";
 /// What edges carry, and how graphs are read.
 #[derive(Args)]
 pub(super) struct QuestionArguments {
-    /// What is known of the cameras [default: projective].
-    #[arg(long, value_enum)]
+    /// projective (default), calibrated, affine, or focal: unknown focal lengths.
+    #[arg(long, value_enum, hide_possible_values = true)]
     model: Option<ModelName>,
     /// Decide the graph of cameras and points; rotations are known.
     #[arg(long)]
     tracks: bool,
-    /// Seed of all random cameras.
-    #[arg(long, default_value_t = 1, help_heading = ARITHMETIC, hide_short_help = true)]
+    /// Seed of all random cameras [default: 1].
+    #[arg(long, default_value_t = 1, hide_default_value = true, help_heading = ARITHMETIC, hide_short_help = true)]
     seed: u64,
     /// List the members of every component.
     #[arg(long, hide_short_help = true)]

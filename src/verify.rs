@@ -37,8 +37,9 @@ pub(super) struct VerifyArguments {
     #[arg(long, value_name = "A,B", num_args = 0..=1, require_equals = true)]
     #[arg(default_missing_value = "9,4", help_heading = ARITHMETIC, hide_short_help = true)]
     rational: Option<Bounds>,
-    /// How the rank is found: by merging bodies, without counting, or as the paper does.
+    /// How the rank is found: bodies (default), ranks (no counting), or matrix.
     #[arg(long, value_enum, default_value_t = MethodName::Bodies)]
+    #[arg(hide_default_value = true, hide_possible_values = true)]
     #[arg(help_heading = ARITHMETIC, hide_short_help = true)]
     method: MethodName,
     /// Decide for centres that all lie in one plane.
@@ -46,8 +47,8 @@ pub(super) struct VerifyArguments {
     planar: bool,
     #[command(flatten)]
     intrinsics: IntrinsicsArguments,
-    /// Count the solutions over the complex numbers [default: quick].
-    #[arg(long, value_enum, value_name = "HOW", num_args = 0..=1, require_equals = true)]
+    /// Count solutions over the complex numbers: quick (default), full, or off.
+    #[arg(long, hide_possible_values = true, value_enum, value_name = "HOW", num_args = 0..=1, require_equals = true)]
     #[arg(default_missing_value = "quick", hide_short_help = true)]
     solutions: Option<Solutions>,
     /// Write a certificate to this file, or one for each graph to this folder.
@@ -56,8 +57,8 @@ pub(super) struct VerifyArguments {
     /// Write the explicit proof that `viewcert-proved` verifies to this file.
     #[arg(long, value_name = "FILE", help_heading = EVIDENCE, hide_short_help = true)]
     proof: Option<PathBuf>,
-    /// Print a line a graph, and a summary.
-    #[arg(long, value_enum, value_name = "FORMAT", num_args = 0..=1, require_equals = true)]
+    /// Print a line a graph, and a summary; or csv, or latex.
+    #[arg(long, hide_possible_values = true, value_enum, value_name = "FORMAT", num_args = 0..=1, require_equals = true)]
     #[arg(default_missing_value = "text", hide_short_help = true)]
     #[arg(conflicts_with_all = ["json", "components", "planar", "tracks"])]
     table: Option<TableName>,

@@ -336,7 +336,7 @@ fn within_a_connected_part_groups_are_glued() {
     let (line, _) = overview(&path);
     assert_eq!(global_sizes(&line), [11, 4]);
     let words = words(&["overview", &path]);
-    let said = "the one of 11 of 15 images with 2 parts (6, 6) that may be silently misplaced";
+    let said = "the one of 11 of 15 images; 2 parts in it may be silently misplaced";
     assert!(words.contains(said), "{words}");
 }
 

@@ -9,6 +9,9 @@ use viewcert_advice::mapper::{Beginning, Foreseen, GlobalModel, Models, Sees, Th
 /// How many pairs to begin with are shown.
 const BEGINNINGS: usize = 3;
 
+/// Of how many parts the sizes are shown.
+const LARGEST: usize = 3;
+
 /// "one model of 15 of 16 images (COLMAP 4.2)".
 pub(crate) fn global(foreseen: &Foreseen) -> String {
     let of = foreseen.global.of;
@@ -41,9 +44,8 @@ fn apart(model: &GlobalModel) -> String {
         [] => ", of which the tracks determine no two".to_owned(),
         [size] => format!(", of which the tracks determine {size}"),
         _ => format!(
-            " with {} parts ({}) that may be silently misplaced",
-            sizes.len(),
-            several(&sizes, ", ")
+            "; {} in it may be silently misplaced",
+            counted(sizes.len(), "part")
         ),
     }
 }
@@ -59,14 +61,14 @@ pub(crate) fn incremental(foreseen: &Foreseen) -> String {
     let simulated = match unfit(models) {
         None => "(simulated)".to_owned(),
         Some(unfit) => format!(
-            "(simulated, uncertain: {unfit} of {} pairs to begin with are unfit)",
+            "(simulated, uncertain: {unfit} of {} first pairs are unfit)",
             models.starts.len()
         ),
     };
     let made = models.models.iter();
     let sizes: Vec<usize> = made.map(|model| model.images.len()).collect();
     let mut words = match sizes[..] {
-        [] => return format!("likely no model: no pair is fit to begin with {simulated}"),
+        [] => return "likely no model: no pair is fit to begin with (simulated)".to_owned(),
         [size] => {
             let images = all_of(size, foreseen.global.of);
             format!(
@@ -87,9 +89,16 @@ pub(crate) fn incremental(foreseen: &Foreseen) -> String {
     format!("{words} {simulated}")
 }
 
+/// "6, 6", "3, 3, 3, ..".
+pub(crate) fn largest(sizes: &[usize]) -> String {
+    let shown = sizes.iter().take(LARGEST).map(usize::to_string);
+    let more = (sizes.len() > LARGEST).then(|| "..".to_owned());
+    Vec::from_iter(shown.chain(more)).join(", ")
+}
+
 /// How many pairs to begin with are unfit by their geometry, if these are nearly all: COLMAP estimates
 /// each anew, and what passes then is chance.
-fn unfit(models: &Models) -> Option<usize> {
+pub(crate) fn unfit(models: &Models) -> Option<usize> {
     let unfit = models.starts.iter().filter(|start| start.unfit.is_some());
     let unfit = unfit.count();
     (unfit >= 10 && 10 * unfit >= 9 * models.starts.len()).then_some(unfit)

@@ -1,6 +1,6 @@
 //! What to do next about an overview, and what to expect of it.
 
-use crate::mappers::all_of;
+use crate::mappers::{all_of, unfit};
 use crate::overview::{Do, Next, Overview};
 use viewcert::wording::counted;
 use viewcert_advice::export::{has_global_mapper, shell};
@@ -173,15 +173,19 @@ fn to_match(file: &File, found: &Overview) -> Option<Next> {
             "matches and verifies these pairs",
         ));
     }
-    let all = all_of(most, found.wanted.of);
-    let now = most_of(found)
-        .map(|(mapper, images, _)| format!("; until then {mapper} mapping places {images}"));
+    let of = found.wanted.of;
+    let parts = match most == of {
+        true => format!("{} in one part if they overlap", all_of(most, of)),
+        false => format!(
+            "larger parts, first of {}, if they overlap",
+            all_of(most, of)
+        ),
+    };
+    let now =
+        most_of(found).map(|(mapper, images, _)| format!("; {mapper} mapping places {images} now"));
     Some(Next {
         commands,
-        expect: format!(
-            "{all} in one part if they overlap{}",
-            now.unwrap_or_default()
-        ),
+        expect: parts + &now.unwrap_or_default(),
         by_hand: None,
     })
 }
@@ -197,7 +201,10 @@ fn most_of(found: &Overview) -> Option<(&'static str, usize, &'static str)> {
     let first = foreseen.incremental.models.first();
     let of_incremental = first.map_or(0, |model| model.images.len());
     let has_global = has_global_mapper(found.facts()?.version);
-    let most = match of_global > of_incremental && has_global {
+    // Where chance decides whether a model begins, the mapper that needs no beginning is the better one.
+    let is_uncertain = unfit(&foreseen.incremental).is_some();
+    let is_more = of_global > of_incremental || is_uncertain && of_global == of_incremental;
+    let most = match is_more && has_global {
         true => ("global", of_global, "global_mapper"),
         false => ("incremental", of_incremental, "mapper"),
     };
@@ -209,13 +216,13 @@ fn map(file: &File, found: &Overview) -> Next {
     if found.mappers.is_none() {
         return of_no_database(file, found);
     }
-    let by_hand = by_hand(found);
-    let Some((name, images, mapper)) = most_of(found) else {
+    let most = most_of(found).filter(|_| found.without_base_line.is_empty());
+    let Some((name, images, mapper)) = most else {
         let other = "take photographs from other places: step aside, and do not turn on the spot";
         return Next {
             commands: Vec::new(),
-            by_hand: by_hand.or_else(|| Some(other.into())),
-            expect: "until then neither mapper makes a model".to_owned(),
+            by_hand: Some(by_hand(found).unwrap_or_else(|| other.into())),
+            expect: "no model to be trusted before that, of either mapper".to_owned(),
         };
     };
     let mapping = ["--image_path", "images", "--output_path", "sparse"];
@@ -228,7 +235,7 @@ fn map(file: &File, found: &Overview) -> Next {
     let images = all_of(images, found.wanted.of);
     Next {
         commands: vec![file.colmap(mapper, &mapping, &why)],
-        by_hand,
+        by_hand: by_hand(found),
         expect: format!("likely {images} in one model; {after}"),
     }
 }

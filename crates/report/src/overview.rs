@@ -205,6 +205,16 @@ impl Parts {
         }
     }
 
+    /// "2 parts (6, 6) and 3 images".
+    pub(crate) fn brief(&self) -> String {
+        let parts = counted(self.images.len(), "part");
+        let outside = match self.outside {
+            0 => String::new(),
+            count => format!(" and {}", counted(count, "image")),
+        };
+        format!("{parts} ({}){outside}", mappers::largest(&self.sizes))
+    }
+
     /// "2 parts (6, 6 images)", and what is in none of them.
     pub(crate) fn words(&self) -> String {
         let mut words = match self.images.len() {

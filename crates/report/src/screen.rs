@@ -15,8 +15,11 @@ use viewcert::wording::printable;
 const LINES: usize = 12;
 
 /// So many columns the names of images outside may take, and those of parts.
-const NAMES: usize = 72;
+const NAMES: usize = 36;
 const PARTS: usize = 3;
+
+/// So many lines what is outside may take.
+const OUTSIDE: usize = 2;
 
 /// Writes the first screen, and all the rest after it if that is wanted.
 ///
@@ -154,7 +157,7 @@ fn trust(found: &Overview) -> String {
         }
         Some(parts) if !parts.sizes.is_empty() => format!(
             "no: the {what} leave {} free against each other ({proved})",
-            parts.words()
+            parts.brief()
         ),
         _ => format!("none: the {what} determine no images against each other"),
     }
@@ -167,17 +170,18 @@ fn outside(out: &mut Vec<u8>, found: &Overview) -> io::Result<()> {
     };
     let mut words = Vec::new();
     let named = part_names::parts(report.input, &parts.images);
-    for (k, part) in (1..).zip(&named).skip(1).take(PARTS - 1) {
+    let (sees, none) = (found.sees(), found.named(&found.in_no_part()));
+    let shown_parts = if none.is_empty() { PARTS } else { PARTS - 1 };
+    for (k, part) in (1..).zip(&named).skip(1).take(shown_parts - 1) {
         let images = counted(part.images, "image");
         words.push(format!(
             "part {k}: {} ... {} ({images})",
             part.first, part.last
         ));
     }
-    if named.len() > PARTS {
-        words.push(counted(named.len() - PARTS, "more part"));
+    if named.len() > shown_parts {
+        words.push(counted(named.len() - shown_parts, "more part"));
     }
-    let (sees, none) = (found.sees(), found.named(&found.in_no_part()));
     let mut shown = String::new();
     for (k, name) in none.iter().enumerate() {
         if shown.len() > NAMES {
@@ -193,6 +197,13 @@ fn outside(out: &mut Vec<u8>, found: &Overview) -> io::Result<()> {
     }
     match words.is_empty() {
         true => Ok(()),
-        false => wrapped(out, "outside", &words.join("; ")),
+        false => {
+            let lines = String::from_utf8_lossy(&line("outside", &words.join("; "))?).into_owned();
+            let mut two = lines.lines().take(OUTSIDE).collect::<Vec<_>>().join("\n");
+            if lines.lines().count() > OUTSIDE {
+                two += " ..";
+            }
+            writeln!(out, "{two}")
+        }
     }
 }
