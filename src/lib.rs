@@ -55,7 +55,7 @@ use viewcert_session::{Session, exit};
 #[derive(Parser)]
 #[command(name = "verify", version, args_conflicts_with_subcommands = true)]
 #[command(subcommand_negates_reqs = true, disable_help_subcommand = true)]
-#[command(after_help = "All options and commands: `verify --help`.", after_long_help = after_help())]
+#[command(after_long_help = after_help())]
 struct CommandLine {
     #[command(subcommand)]
     command: Option<Command>,

@@ -176,13 +176,10 @@ fn to_match(file: &File, found: &Overview) -> Option<Next> {
     let of = found.wanted.of;
     let parts = match most == of {
         true => format!("{} in one part if they overlap", all_of(most, of)),
-        false => format!(
-            "larger parts, first of {}, if they overlap",
-            all_of(most, of)
-        ),
+        false => format!("parts of {} and more if they overlap", all_of(most, of)),
     };
-    let now =
-        most_of(found).map(|(mapper, images, _)| format!("; {mapper} mapping places {images} now"));
+    let now = most_of(found).filter(|(_, images, _)| *images < of);
+    let now = now.map(|(mapper, images, _)| format!("; {mapper} mapping places {images} now"));
     Some(Next {
         commands,
         expect: parts + &now.unwrap_or_default(),
