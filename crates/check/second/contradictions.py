@@ -125,13 +125,13 @@ class ContradictionsCheck:
         for number in increasing(a_list(assumed, where), f"{where}: assumed"):
             an_int(number, f"{where}: assumed", least=0, below=len(self.pairs))
         an_int(denominator, f"{where}: denominator", least=1)
-        weights, total, witnessed = [0] * len(self.pairs), 0, False
+        weights, total, witnessed, right = {}, 0, False, set(assumed)
         for k, cycle in enumerate(a_list(cycles, f"{where}: cycles")):
             at = f"{where}.cycles[{k}]"
             walk, weight, witness = members(cycle, "walk weight witness", at)
             an_int(weight, f"{at}: weight", least=0)
             steps = self.walk(walk, theta, at)
-            need(not {k for k, _ in steps} <= set(assumed), f"{at}: (C5) all of its pairs are assumed")
+            need(not {k for k, _ in steps} <= right, f"{at}: (C5) all of its pairs are assumed")
             if witness is None:
                 self.rotations(steps, theta, at)
             else:
@@ -140,9 +140,9 @@ class ContradictionsCheck:
                 witnessed = True
             total += weight
             for k, _ in steps:
-                weights[k] += weight
+                weights[k] = weights.get(k, 0) + weight
         need(phi is None or witnessed, f"{where}: (C3) phi without a witness")
-        for k in set(range(len(self.pairs))) - set(assumed):
+        for k in weights.keys() - right:
             need(weights[k] <= denominator, f"{where}: (C8) pair {k} carries more than one")
         need(same(at_least, -(-total // denominator)), f"{where}: (C8) at_least is another number")
         return theta, phi, len(assumed), at_least

@@ -15,7 +15,7 @@ use crate::rejection::{Checked, Failure, Within, ensure};
 use document::{Cycle, Document, Packing, Pair, Upper};
 use motions::{ONE, Quaternion, big, conjugate, cosines, dot, product, square, turned};
 use num_bigint::BigInt;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 /// Operations for a step of a cycle, or a pair; a walk has at most 179.
@@ -165,22 +165,24 @@ impl Proof<'_> {
         let pairs = self.document.pairs.len();
         let fine = assumed.is_sorted_by(|a, b| a < b) && assumed.iter().all(|&k| k < pairs);
         ensure!(fine, "`assumed` is no increasing list of pairs");
-        let mut free = vec![true; pairs];
-        assumed.iter().for_each(|&k| free[k] = false);
-        let (mut carried, mut sum) = (vec![0_u128; pairs], 0_u128);
+        let is_free = |pair: &usize| assumed.binary_search(pair).is_err();
+        let (mut carried, mut sum) = (BTreeMap::<usize, u128>::new(), 0_u128);
         for (k, cycle) in packing.cycles.iter().enumerate() {
             let used = self.cycle(cycle, packing);
             let used = used.within(|| format!("cycles[{k}]"))?;
-            let fine = used.iter().any(|&pair| free[pair]);
-            ensure!(fine, "all pairs of cycles[{k}] are assumed right");
+            ensure!(
+                used.iter().any(is_free),
+                "all pairs of cycles[{k}] are assumed right"
+            );
             let weight = u128::from(cycle.weight);
-            used.into_iter().for_each(|pair| carried[pair] += weight);
+            for pair in used.into_iter().filter(is_free) {
+                *carried.entry(pair).or_default() += weight;
+            }
             sum += weight;
         }
         let most = u128::from(packing.denominator);
-        for (k, weight) in carried.into_iter().enumerate() {
-            let fine = !free[k] || weight <= most;
-            ensure!(fine, "pair {k} carries {weight}, and not {most} at most");
+        for (k, weight) in carried {
+            ensure!(weight <= most, "pair {k} carries {weight} of {most}");
         }
         let found = sum.div_ceil(most);
         let same = u128::from(packing.at_least) == found;
