@@ -179,15 +179,7 @@ pub(crate) fn used(contraction: &Contraction) -> Vec<Pair> {
                 .flat_map(|&[v, a, b]| [ordered(v, a), ordered(v, b)]),
         );
         for merge in &body.merge {
-            let parts: &[Joined] = match merge {
-                Merge::Scaled { part, .. } | Merge::Shared { part, .. } => {
-                    std::slice::from_ref(part)
-                }
-                Merge::Triangle { parts, .. } => parts,
-                Merge::Cycle { parts, .. } => parts,
-                Merge::Biclique { parts, .. } => parts,
-            };
-            used.extend(parts.iter().filter_map(|part| match *part {
+            used.extend(merge.parts().iter().filter_map(|part| match *part {
                 Joined::Edge(a, b) => Some(ordered(a, b)),
                 Joined::Body(_) => None,
             }));

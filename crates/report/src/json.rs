@@ -252,6 +252,8 @@ struct SolutionsLine {
     at_least: Number,
     at_most: Option<Number>,
     strength: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    because: Option<String>,
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     full_may_tell_more: bool,
 }
@@ -263,6 +265,7 @@ impl From<&SolutionCount> for SolutionsLine {
             at_least: count.at_least.clone(),
             at_most: count.at_most.clone(),
             strength: count.strength().name(),
+            because: count.because(),
             full_may_tell_more: count.full_may_tell_more,
         }
     }

@@ -234,6 +234,9 @@ fn reason(input: &NamedGraph, verdict: &Verdict) -> String {
             merges => format!("{merges} bodies merge into one with all {nodes} {members}"),
         };
     }
+    if let Some(why) = verdict.solutions.as_ref().and_then(SolutionCount::because) {
+        return why;
+    }
     if verdict.value != Value::NotFiniteSolvable {
         return full_rank(verdict)
             + if verdict.value == verdict.value_by_rank() {

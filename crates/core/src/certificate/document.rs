@@ -7,13 +7,12 @@ use super::EMBED_NODES;
 use super::base_lines::{BaseLinesView, ClaimedBaseLines};
 use super::objects::{Big, bigs, object, objects, written};
 use super::own_frame::{ClaimedOwnFrame, OwnFrameView, vectors};
-use super::solutions::{self, ClaimedSolutions, ForeignSolutions, SolutionsView};
+use super::solutions::{self, ClaimedSolutions, Counted, ForeignSolutions, SolutionsView};
 use crate::contract::piece::Members;
 use crate::contract::{Body, Merge, Part, Seed};
 use crate::decide::evidence::{Class, Draws, Evidence, PieceVerdict, Witness};
 use crate::decide::{Block, Claim, Counting, Hub, SharedBaseLines, Value, Verdict};
 use crate::graph::{Graph, graph6};
-use crate::solutions::Solutions;
 use serde::{Serialize, Serializer};
 
 objects! {
@@ -95,18 +94,14 @@ impl<'a> Document<'a> {
         graph: &Graph,
         embed: bool,
         verdict: &'a Verdict,
-        solutions: Option<&'a Solutions>,
+        counted: Counted<'a>,
         base_lines: Option<&'a SharedBaseLines>,
     ) -> Result<Self, ForeignSolutions> {
         let (mut value, rank) = (verdict.value_claim(), verdict.rank_claim());
         value.value = verdict.value_by_rank();
         let components = verdict.components_claim();
-        let known = solutions.map(|solutions| solutions::view(verdict, solutions));
-        let (claimed, evidence) = known.transpose()?.flatten().unzip();
-        if evidence.is_some()
-            && solutions
-                .is_some_and(|solutions| solutions.at_most.as_ref().is_some_and(|most| *most == 1))
-        {
+        let (claimed, evidence) = solutions::view(verdict, counted)?.unzip();
+        if claimed.as_ref().is_some_and(ClaimedSolutions::is_one) {
             value.value = Value::Solvable;
         }
         Ok(Self {
@@ -223,16 +218,9 @@ impl From<Part> for PartView {
 
 impl<'a> MergeView<'a> {
     fn new(merge: &'a Merge) -> Self {
-        let at: &[u32] = match merge {
-            Merge::Scaled { at, .. } => at,
-            Merge::Shared { at, .. } => at,
-            Merge::Triangle { at, .. } => at,
-            Merge::Cycle { at, .. } => at,
-            Merge::Biclique { at, .. } => at,
-        };
         Self {
             with: merge.parts().iter().map(|&part| part.into()).collect(),
-            at,
+            at: merge.at(),
         }
     }
 }
@@ -282,6 +270,7 @@ impl Serialize for Evidence {
                 kind: "plane-minor", prime: Big(draw.prime), seed: Big(draw.seed),
                 draw: draw.draw, rows: pivots.rows, cols: pivots.cols,
             }),
+            Self::OneSolution => object!(serializer, { kind: "one-solution" }),
             Self::Counting(Counting { blocks, bound }) => object!(serializer, {
                 kind: "counting", blocks: blocks, bound: bound,
             }),

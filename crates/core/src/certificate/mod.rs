@@ -17,6 +17,7 @@ pub use solutions::ForeignSolutions;
 use crate::decide::{SharedBaseLines, Verdict};
 use crate::graph::Graph;
 use crate::solutions::Solutions;
+use solutions::Counted;
 use std::fmt;
 use std::io::{self, Write};
 
@@ -32,7 +33,7 @@ pub struct Certificate<'a> {
     name: &'a str,
     embed: bool,
     compact: bool,
-    solutions: Option<&'a Solutions>,
+    counted: Counted<'a>,
     base_lines: Option<&'a SharedBaseLines>,
 }
 
@@ -52,7 +53,10 @@ impl Verdict {
     /// ```
     pub fn certificate<'a>(&'a self, graph: &'a Graph) -> Certificate<'a> {
         let counted = self.solutions.as_ref();
-        let own = counted.and_then(|count| count.evidence.as_deref());
+        let own = counted.map_or(Counted::default(), |count| Counted {
+            rounds: count.rounds.as_deref(),
+            solutions: count.evidence.as_deref(),
+        });
         Certificate {
             graph,
             verdict: self,
@@ -60,7 +64,11 @@ impl Verdict {
             embed: false,
             compact: false,
             base_lines: None,
-            solutions: own.filter(|solutions| solutions::view(self, solutions).is_ok()),
+            counted: if solutions::view(self, own).is_ok() {
+                own
+            } else {
+                Counted::default()
+            },
         }
     }
 }
@@ -111,8 +119,11 @@ impl<'a> Certificate<'a> {
     /// # Errors
     /// If the solutions are those of another graph, or of other members than the verdict has.
     pub fn with_solutions(mut self, solutions: &'a Solutions) -> Result<Self, ForeignSolutions> {
-        solutions::view(self.verdict, solutions)?;
-        self.solutions = Some(solutions);
+        self.counted = Counted {
+            rounds: None,
+            solutions: Some(solutions),
+        };
+        solutions::view(self.verdict, self.counted)?;
         Ok(self)
     }
 
@@ -156,7 +167,7 @@ impl<'a> Certificate<'a> {
             self.graph,
             self.embed,
             self.verdict,
-            self.solutions,
+            self.counted,
             self.base_lines,
         )
         .map_err(io::Error::other)?;

@@ -5,11 +5,11 @@
 //! the piece, then one for each merge. So the merges are done again here, on sets of nodes.
 
 use super::objects::{Big, bigs, object, objects, written};
-use crate::decide::{Value, Verdict};
+use crate::decide::evidence::Evidence;
+use crate::decide::{Joined, Round, Rounds, Value, Verdict};
 use crate::geometry::model::Model;
 use crate::solutions::{
-    AtMost, Chart, Factor, Linear, Lower, Merge, Minor, Number, One, Part, Place, Rule, Solutions,
-    Upper,
+    AtMost, Chart, Factor, Linear, Lower, Merge, Minor, Number, One, Part, Place, Solutions, Upper,
 };
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
@@ -42,7 +42,13 @@ objects! {
         merges: Vec<MergeView<'a>>,
         upper: Option<&'a Upper>,
         lower: Option<&'a Lower>,
-        ; optional product: Vec<FactorView<'a>>
+        ; optional product: Vec<FactorView<'a>>, rounds: Vec<RoundView<'a>>
+    }
+
+    RoundView<'a> {
+        sets: &'a [Vec<u32>],
+        evidence: [&'a Evidence; 1],
+        merges: Vec<MergeView<'a>>,
     }
 
     FactorView<'a> {
@@ -56,6 +62,36 @@ objects! {
         with: Vec<usize>,
         at: &'a [u32],
         solutions: Option<Nested<'a>>,
+    }
+}
+
+/// What is known of the number of solutions: rounds that merge members, and what is counted of those
+/// left.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Counted<'a> {
+    pub(super) rounds: Option<&'a Rounds>,
+    pub(super) solutions: Option<&'a Solutions>,
+}
+
+impl ClaimedSolutions {
+    pub(super) fn is_one(&self) -> bool {
+        self.at_most.as_ref().is_some_and(|most| *most == 1)
+    }
+}
+
+impl<'a> RoundView<'a> {
+    fn new(round: &'a Round) -> Self {
+        let merge = |Joined { rule, with, at }: &'a Joined| MergeView {
+            rule: rule.name(),
+            with: with.clone(),
+            at,
+            solutions: None,
+        };
+        Self {
+            sets: &round.sets,
+            evidence: [&round.evidence],
+            merges: round.merges.iter().map(merge).collect(),
+        }
     }
 }
 
@@ -102,12 +138,17 @@ impl Serialize for One {
 /// show: the graph is not finite solvable, it is one body, or nothing is known.
 pub(super) fn view<'a>(
     verdict: &Verdict,
-    solutions: &'a Solutions,
+    Counted { rounds, solutions }: Counted<'a>,
 ) -> Result<Option<(ClaimedSolutions, SolutionsView<'a>)>, ForeignSolutions> {
     let [piece] = &verdict.pieces[..] else {
         return Ok(None);
     };
-    let is_known = solutions.at_least > 1 || solutions.at_most.is_some();
+    let is_one = rounds.is_some_and(Rounds::is_one);
+    if piece.evidence.contains(&Evidence::OneSolution) && !is_one {
+        return Err(ForeignSolutions);
+    }
+    let counted = |of: &Solutions| of.at_least > 1 || of.at_most.is_some();
+    let is_known = is_one || solutions.is_some_and(counted);
     let is_finite = verdict.value != Value::NotFiniteSolvable && verdict.rigid.is_empty();
     let are_unique = verdict.contraction.by_rank.is_empty();
     if !is_known || !is_finite || !are_unique || verdict.model != Model::Projective {
@@ -116,10 +157,29 @@ pub(super) fn view<'a>(
     let bodies = piece.members.bodies.iter();
     let bodies = bodies.map(|&k| verdict.contraction.bodies[k as usize].nodes.clone());
     let edges = piece.members.edges.iter().map(|&(i, j)| vec![i, j]);
-    let view = Live::new(bodies.chain(edges).collect()).view(solutions)?;
+    let live = match rounds {
+        Some(rounds) => Live {
+            members: rounds.left.iter().cloned().collect(),
+            next: rounds.next,
+        },
+        None => Live::new(bodies.chain(edges).collect()),
+    };
+    let mut view = match solutions {
+        Some(solutions) => live.view(solutions)?,
+        None => SolutionsView {
+            merges: Vec::new(),
+            upper: None,
+            lower: None,
+            product: None,
+            rounds: None,
+        },
+    };
+    view.rounds = rounds.map(|rounds| rounds.rounds.iter().map(RoundView::new).collect());
+    let bounds = solutions.map(|of| (of.at_least.clone(), of.at_most.clone()));
+    let (at_least, at_most) = bounds.unwrap_or((Number::one(), Some(Number::one())));
     let claimed = ClaimedSolutions {
-        at_least: solutions.at_least.clone(),
-        at_most: solutions.at_most.clone(),
+        at_least,
+        at_most,
         strength: "proof",
         error_log2: None,
     };
@@ -165,6 +225,7 @@ impl Live {
             upper,
             lower,
             product: (!factors.is_empty()).then_some(factors),
+            rounds: None,
         })
     }
 
@@ -224,12 +285,7 @@ impl Live {
         self.members.insert(self.next, merged);
         self.next += 1;
         Ok(MergeView {
-            rule: match merge.rule {
-                Rule::Shared => "shared",
-                Rule::Triangle => "triangle",
-                Rule::Biclique => "biclique",
-                Rule::Grown => "part",
-            },
+            rule: merge.rule.name(),
             with: with.into_iter().map(|(number, _)| number).collect(),
             at: &merge.at,
             solutions,

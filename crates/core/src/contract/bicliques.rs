@@ -1,8 +1,12 @@
-//! Merging six members around a K_{2,3}, in the projective model (docs/theory.md, Theorem 10.3).
+//! Merging five members or six in the projective model: around a K_{2,3} (docs/theory.md, Theorem
+//! 10.3), a tripod or a link (Theorems 18.7 and 18.8).
 //!
 //! In: bodies and loose edges of which no two share two nodes and no three pairwise share one. Out:
-//! new bodies, each of six members: two nodes a, b are joined to each of three others, a by the one
-//! member, b by another. That the six differ follows from what goes in (Proposition 10.12). A member
+//! new bodies. In a K_{2,3} two nodes a, b are joined to each of three others, a by the one
+//! member, b by another. In a tripod a node is joined to a body by one member, and by two ways of two
+//! members; if both ways end in one node, that is a K_{2,3}. In a link two bodies are joined by two
+//! members, and by a way of two. That members differ and that ways are in general position follows
+//! from what goes in (Propositions 10.12 and 18.9). A member
 //! is used by one merge a call; whoever calls closes under the other rules again and comes back.
 
 use super::body::{Body, Merge, Part, Seed};
@@ -34,34 +38,52 @@ impl Steps {
 /// Merges wherever the rule applies and no member is used twice. New bodies are appended; the
 /// consumed ones lose their nodes. Returns whether there are new ones.
 ///
-/// The largest member of a K_{2,3} finds the others, so a body is only searched by larger ones.
+/// The largest member finds the others, so a body is only searched by larger ones. Where nothing is
+/// left to be found so, the body of a tripod finds larger members too, in as many steps.
 pub(super) fn merge(
     bodies: &mut Vec<Body>,
     loose: &[(u32, u32)],
     nodes: usize,
-    steps: &Steps,
+    steps: &[Steps; 2],
 ) -> bool {
     let left = bodies.iter().filter(|body| !body.nodes.is_empty()).count() + loose.len();
-    if left < 6 {
+    if left < 5 {
         return false;
     }
-    let mut search = Search::new(bodies, loose, nodes, steps);
+    let mut search = Search::new(bodies, loose, nodes, &steps[0]);
     search.search_bodies();
     search.search_edges();
+    if search.found.is_empty() {
+        (search.steps, search.is_limited) = (&steps[1], false);
+        search.search_bodies();
+    }
     let Search { part, found, .. } = search;
     let members = part.len() as u32;
-    for biclique in &found {
-        let at = biclique.at.map(|place| place - members);
-        let parts = biclique.members.map(|member| part[member as usize]);
-        let body = merged(bodies, parts, at);
+    for found in &found {
+        let node = |place: u32| place - members;
+        let [first, rest @ ..] = found.members.map(|member| part[member as usize]);
+        let merge = match found.at {
+            At::Biclique(at) => Merge::Biclique {
+                parts: rest,
+                at: at.map(node),
+            },
+            At::Tripod(at) => Merge::Tripod {
+                parts: rest,
+                at: at.map(node),
+            },
+            At::Link(at) => Merge::Link {
+                parts: rest,
+                at: at.map(node),
+            },
+        };
+        let body = merged(bodies, first, merge);
         bodies.push(body);
     }
     !found.is_empty()
 }
 
-/// The body of six parts, which are taken from the list.
-fn merged(bodies: &mut [Body], parts: [Part; 6], at: [u32; 5]) -> Body {
-    let [first, rest @ ..] = parts;
+/// The body of a part and those that are merged with it, which are taken from the list.
+fn merged(bodies: &mut [Body], first: Part, merge: Merge) -> Body {
     let mut take = |part: Part| match part {
         Part::Edge(i, j) => (vec![i, j], 0),
         Part::Body(k) => {
@@ -71,30 +93,37 @@ fn merged(bodies: &mut [Body], parts: [Part; 6], at: [u32; 5]) -> Body {
         }
     };
     let (mut nodes, mut edges) = take(first);
-    // The first has the nodes at[0] and at[2]; no two share another node.
-    nodes.extend([at[1], at[3], at[4]]);
-    for part in rest {
+    for &part in merge.parts() {
         let (more, covered) = take(part);
-        nodes.extend(more.into_iter().filter(|v| !at.contains(v)));
+        nodes.extend(more);
         edges += covered;
     }
+    nodes.sort_unstable();
+    nodes.dedup();
     Body {
         seed: match first {
             Part::Edge(i, j) => Seed::Edge(i, j),
             Part::Body(k) => Seed::Body(k),
         },
         add: Vec::new(),
-        merge: vec![Merge::Biclique { parts: rest, at }],
+        merge: vec![merge],
         nodes,
         edges,
         scaled: false,
     }
 }
 
-/// Six members and the five nodes, in the order of [`Merge::Biclique`].
-struct Biclique {
+/// A body or edge and what is merged with it, in the order of [`Merge`].
+struct Found {
     members: [u32; 6],
-    at: [u32; 5],
+    at: At,
+}
+
+/// The nodes of a merge.
+enum At {
+    Biclique([u32; 5]),
+    Tripod([u32; 6]),
+    Link([u32; 7]),
 }
 
 /// How a search from a body has come to a node outside: from its node, through a member.
@@ -113,8 +142,10 @@ struct Search<'a> {
     /// The shared nodes of every member, the members at every node; without what lies on no cycle.
     incidence: Lists,
     used: Vec<bool>,
-    found: Vec<Biclique>,
+    found: Vec<Found>,
     steps: &'a Steps,
+    /// Whether a body is searched by larger ones only.
+    is_limited: bool,
 }
 
 impl<'a> Search<'a> {
@@ -153,6 +184,7 @@ impl<'a> Search<'a> {
             incidence,
             found: Vec::new(),
             steps,
+            is_limited: true,
         }
     }
 
@@ -165,38 +197,42 @@ impl<'a> Search<'a> {
     }
 
     /// Enters what was found, if none of the members is used.
-    fn accept(&mut self, biclique: Biclique) {
-        if biclique.members.iter().all(|&member| self.is_free(member)) {
-            for member in biclique.members {
+    fn accept(&mut self, found: Found) {
+        if found.members.iter().all(|&member| self.is_free(member)) {
+            for member in found.members {
                 self.used[member as usize] = true;
             }
-            self.found.push(biclique);
+            self.found.push(found);
         }
     }
 
-    /// Every K_{2,3} whose largest member is a body, by falling size.
+    /// Everything whose largest member is a body, by falling size.
     fn search_bodies(&mut self) {
         let mut order: Vec<u32> = (0..self.bodies as u32).collect();
         order.sort_by_key(|&body| std::cmp::Reverse(self.of(body).len()));
         let mut reached = vec![None; self.incidence.len() - self.part.len()];
         for body in order {
             if self.is_free(body)
-                && let Some(biclique) = self.around(body, &mut reached)
+                && let Some(found) = self.around(body, &mut reached)
             {
-                self.accept(biclique);
+                self.accept(found);
             }
         }
     }
 
-    /// A K_{2,3} in which the body holds a and the first of the three.
+    /// A K_{2,3} in which the body holds a and the first of the three, a tripod on it, or a link.
     ///
     /// A node outside that touches the body through a member does so through one member and at one
     /// node only: anything else would be two members that share two nodes, or a triangle.
-    fn around(&self, body: u32, reached: &mut [Option<Reach>]) -> Option<Biclique> {
+    fn around(&self, body: u32, reached: &mut [Option<Reach>]) -> Option<Found> {
         let members = self.part.len();
         let size = self.of(body).len();
+        if !self.steps.take(size) {
+            return None;
+        }
         let joins = |search: &Self, member: u32| {
-            member != body && search.is_free(member) && search.of(member).len() <= size
+            let fits = !search.is_limited || search.of(member).len() <= size;
+            member != body && search.is_free(member) && fits
         };
         let mut layer = Vec::new();
         let mut cost = size;
@@ -224,6 +260,7 @@ impl<'a> Search<'a> {
         let found = if self.steps.take(cost) {
             far.sort_unstable();
             self.two_squares(body, &far, reached)
+                .or_else(|| self.link(body, &far, reached))
         } else {
             None
         };
@@ -233,38 +270,87 @@ impl<'a> Search<'a> {
         found
     }
 
-    /// Two cycles of four around the body with the same a, b. `far` lists the members opposite to
-    /// it with their nodes, in order.
+    /// Two cycles of four around the body through the same node outside. `far` lists the members
+    /// opposite to it with their nodes, in order.
     fn two_squares(
         &self,
         body: u32,
         far: &[(u32, u32)],
         reached: &[Option<Reach>],
-    ) -> Option<Biclique> {
-        let members = self.part.len();
-        // For a and b the third node of the first such cycle, and the member between it and b.
-        let mut squares: HashMap<[u32; 2], (u32, u32)> = HashMap::new();
+    ) -> Option<Found> {
+        let reach = |x: u32| reached[x as usize - self.part.len()];
+        // For a node outside the next one on the first such cycle, and the member between them.
+        let mut squares: HashMap<u32, (u32, u32)> = HashMap::new();
         for opposite in far.chunk_by(|one, other| one.0 == other.0) {
             if !self.steps.take(opposite.len() * opposite.len()) {
                 return None;
             }
             for &(member, b) in opposite {
                 for &(_, v) in opposite {
-                    let [at_b, at_v] = [b, v].map(|x| reached[x as usize - members]);
-                    let (at_b, at_v) = (at_b?, at_v?);
-                    let a = at_v.from;
-                    if at_b.from == a {
+                    let (at_b, at_v) = (reach(b)?, reach(v)?);
+                    if at_b.from == at_v.from {
                         continue;
                     }
-                    let Some(&(w, other)) = squares.get(&[a, b]) else {
-                        squares.insert([a, b], (v, member));
+                    let Some(&(w, other)) = squares.get(&b) else {
+                        squares.insert(b, (v, member));
                         continue;
                     };
-                    let at_w = reached[w as usize - members]?;
-                    return Some(Biclique {
-                        members: [body, at_b.member, at_v.member, member, at_w.member, other],
-                        at: [a, b, at_b.from, v, w],
+                    if w == v {
+                        continue;
+                    }
+                    let at_w = reach(w)?;
+                    let (from, [x, y]) = (at_b.from, [at_v.from, at_w.from]);
+                    let [to_b, to_v, to_w] = [at_b, at_v, at_w].map(|at| at.member);
+                    return Some(if x == y {
+                        Found {
+                            members: [body, to_b, to_v, member, to_w, other],
+                            at: At::Biclique([x, b, from, v, w]),
+                        }
+                    } else {
+                        Found {
+                            members: [body, to_b, member, to_v, to_w, other],
+                            at: At::Tripod([from, x, y, b, v, w]),
+                        }
                     });
+                }
+            }
+        }
+        None
+    }
+
+    /// A body with two nodes that touch this one, and a way of two members between both.
+    fn link(&self, body: u32, far: &[(u32, u32)], reached: &[Option<Reach>]) -> Option<Found> {
+        let reach = |x: u32| reached[x as usize - self.part.len()];
+        for opposite in far.chunk_by(|one, other| one.0 == other.0) {
+            let &[(other, d), (_, e)] = opposite else {
+                continue;
+            };
+            if other as usize >= self.bodies {
+                continue;
+            }
+            let [to_d, to_e] = [reach(d)?, reach(e)?];
+            for &f in self.of(other) {
+                if !self.steps.take(self.of(f).len()) {
+                    return None;
+                }
+                for &last in self.of(f) {
+                    if last == other || !self.is_free(last) || !self.steps.take(self.of(last).len())
+                    {
+                        continue;
+                    }
+                    let ends = self.of(last).iter().filter(|&&g| g != f);
+                    let ends = ends.filter_map(|&g| Some((g, reach(g)?)));
+                    // A member that touches the body itself is a way of one, and no node of a layer
+                    // is in this body.
+                    let mut ends = ends.filter(|(_, at)| {
+                        at.member != last && ![to_d.member, to_e.member].contains(&at.member)
+                    });
+                    if let Some((g, at)) = ends.next() {
+                        return Some(Found {
+                            members: [body, other, to_d.member, to_e.member, at.member, last],
+                            at: At::Link([to_d.from, to_e.from, at.from, d, e, f, g]),
+                        });
+                    }
                 }
             }
         }
@@ -296,11 +382,10 @@ impl<'a> Search<'a> {
                 let mut free = to_one.iter().filter(free);
                 if let (Some(x), Some(y), Some(z)) = (free.next(), free.next(), free.next()) {
                     let ([p, q], [r, s], [t, u]) = (x.2, y.2, z.2);
-                    let biclique = Biclique {
+                    self.accept(Found {
                         members: [p, q, r, s, t, u],
-                        at: [a, x.0, x.1, y.1, z.1],
-                    };
-                    self.accept(biclique);
+                        at: At::Biclique([a, x.0, x.1, y.1, z.1]),
+                    });
                 }
             }
         }

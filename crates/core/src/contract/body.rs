@@ -72,6 +72,24 @@ pub enum Merge {
         /// The two nodes of the one side and the three of the other, all different.
         at: [u32; 5],
     },
+    /// Three ways from a node to the body, in the projective model: with `at` = a, b, c, d, e, f the
+    /// body has a, b and c, the first part a and d, the second d and e, the third e and b, the
+    /// fourth f and c, the fifth d and f. The fifth may be the second.
+    Tripod {
+        /// What joins.
+        parts: [Part; 5],
+        /// Three nodes of the body and three others, all different.
+        at: [u32; 6],
+    },
+    /// Two bodies and three ways between them, in the projective model: with `at` = a, b, c, d, e, f,
+    /// g this body has a, b and c, the first part d, e and f, the second a and d, the third b and e,
+    /// the fourth c and g, the fifth g and f.
+    Link {
+        /// What joins, a body first.
+        parts: [Part; 5],
+        /// The nodes; c may be a or b, and f may be d or e.
+        at: [u32; 7],
+    },
 }
 
 impl Merge {
@@ -81,7 +99,23 @@ impl Merge {
             Self::Scaled { part, .. } | Self::Shared { part, .. } => std::slice::from_ref(part),
             Self::Triangle { parts, .. } => parts,
             Self::Cycle { parts, .. } => parts,
-            Self::Biclique { parts, .. } => parts,
+            Self::Tripod { parts, .. } if parts[4] == parts[1] => &parts[..4],
+            Self::Biclique { parts, .. }
+            | Self::Tripod { parts, .. }
+            | Self::Link { parts, .. } => parts,
+        }
+    }
+
+    /// The nodes in which they hang together.
+    pub fn at(&self) -> &[u32] {
+        match self {
+            Self::Scaled { at, .. } => at,
+            Self::Shared { at, .. } => at,
+            Self::Triangle { at, .. } => at,
+            Self::Cycle { at, .. } => at,
+            Self::Biclique { at, .. } => at,
+            Self::Tripod { at, .. } => at,
+            Self::Link { at, .. } => at,
         }
     }
 }
@@ -105,6 +139,18 @@ pub struct Body {
 }
 
 impl Body {
+    /// A set of nodes that is known, before anything has joined it.
+    pub(crate) fn known(nodes: &[u32]) -> Self {
+        Self {
+            seed: Seed::Known,
+            add: Vec::new(),
+            merge: Vec::new(),
+            nodes: nodes.to_vec(),
+            edges: 0,
+            scaled: false,
+        }
+    }
+
     /// Sorts its nodes, each of them once.
     pub(super) fn sort(&mut self) {
         self.nodes.sort_unstable();

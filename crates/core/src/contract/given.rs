@@ -24,7 +24,12 @@ impl<'a> Given<'a> {
         sets: impl Iterator<Item = &'s [u32]>,
         scaled: bool,
     ) -> Self {
-        let mut bodies: Vec<Body> = sets.map(|nodes| body(nodes, scaled)).collect();
+        let mut bodies: Vec<Body> = sets
+            .map(|nodes| Body {
+                scaled,
+                ..Body::known(nodes)
+            })
+            .collect();
         if bodies.is_empty() {
             let rest = Cow::Borrowed(graph);
             return Self { bodies, rest };
@@ -44,18 +49,6 @@ impl<'a> Given<'a> {
         let (rest, _) = Graph::from_pairs(graph.nodes() as u32, rest).expect("edges of a graph");
         let rest = Cow::Owned(rest);
         Self { bodies, rest }
-    }
-}
-
-/// A set of nodes, before anything has joined it.
-fn body(nodes: &[u32], scaled: bool) -> Body {
-    Body {
-        seed: Seed::Known,
-        add: Vec::new(),
-        merge: Vec::new(),
-        nodes: nodes.to_vec(),
-        edges: 0,
-        scaled,
     }
 }
 

@@ -4,7 +4,8 @@
 //! grown from triangles until a node seen twice remains nowhere, then merged by the
 //! two rules that are left: bodies that share two nodes, and three bodies that
 //! pairwise share a node. In the calibrated model four bodies around a cycle are one as well
-//! (rule 5 of Theorem 4.9), in the projective one six bodies around a K_{2,3} (Theorem 10.3). Known
+//! (rule 5 of Theorem 4.9), in the projective one six bodies around a K_{2,3} (Theorem 10.3), or around
+//! a tripod or a link (Theorems 18.7 and 18.8). Known
 //! parts are bodies from the start (Theorem 4.14). Every step is recorded, and the record is the
 //! proof. Bodies by rank (Proposition 4.15) are found by whoever decides, and go on here.
 
@@ -77,6 +78,13 @@ impl Contraction {
         }
     }
 
+    /// Contracts a graph of the projective model with uniquely determined sets of nodes, which are the
+    /// first bodies.
+    pub(crate) fn with_sets(graph: &Graph, sets: &[Vec<u32>]) -> Self {
+        let sets = sets.iter().map(Vec::as_slice);
+        Self::by_triangles(Given::new(graph, sets, false), Model::Projective)
+    }
+
     /// Contracts a graph of the calibrated model with known displacements, whose groups are bodies
     /// from the start (Theorem 13.16). The cost is that of [`new`](Self::new), once more for each
     /// round in which scaled bodies that share a node make further merges possible. If vectors are
@@ -93,7 +101,7 @@ impl Contraction {
     }
 
     /// Closed under cycles of two and three (Theorem 4.1; affine: 13.9), in the projective model also
-    /// under the rule of K_{2,3} (Theorem 10.3), as far as its steps reach.
+    /// under K_{2,3}, tripods and links (Theorems 10.3, 18.7 and 18.8), as far as their steps reach.
     fn by_triangles(given: Given, model: Model) -> Self {
         let Given { mut bodies, rest } = given;
         let graph = &*rest;
@@ -191,7 +199,7 @@ impl Contraction {
         mut bodies: Vec<Body>,
         remaining: &Adjacency,
     ) -> Self {
-        let steps = bicliques::Steps::new(graph);
+        let steps = [(); 2].map(|()| bicliques::Steps::new(graph));
         loop {
             let owners = merge::close(&mut bodies, remaining, graph.nodes(), &Generic);
             let (owned, loose) = by_owner(&owners, remaining);

@@ -89,6 +89,8 @@ impl Rest {
                 Merge::Triangle { parts, at } => (parts, at),
                 Merge::Cycle { parts, at } => (parts, at),
                 Merge::Biclique { parts, at } => (parts, at),
+                Merge::Tripod { parts, at } => (parts, at),
+                Merge::Link { parts, at } => (parts, at),
             };
             parts.iter_mut().for_each(part);
             at.iter_mut().for_each(name);

@@ -119,6 +119,33 @@ fn replay(graph: &Graph, known: Known, contraction: &Contraction) -> Vec<Nodes> 
                     }
                     nodes.extend(x.into_iter().chain(y).chain(z));
                 }
+                Merge::Tripod { at, .. } => {
+                    assert_eq!(Nodes::from(at).len(), 6);
+                    let [a, b, c, d, e, f] = at;
+                    assert!([a, b, c].iter().all(|v| nodes.contains(v)));
+                    assert!([d, e, f].iter().all(|v| !nodes.contains(v)));
+                    let parts: Vec<Nodes> = merge.parts().iter().map(|&x| part(x)).collect();
+                    let last = if parts.len() == 4 { 1 } else { 4 };
+                    let pairs = [[d, a], [d, e], [e, b], [f, c], [d, f]];
+                    for (k, pair) in [0, 1, 2, 3, last].into_iter().zip(pairs) {
+                        assert!(pair.iter().all(|v| parts[k].contains(v)));
+                    }
+                    nodes.extend(parts.into_iter().flatten());
+                }
+                Merge::Link { parts, at } => {
+                    let [a, b, c, d, e, f, g] = at;
+                    assert!(a != b && d != e && (c, f) != (a, d) && (c, f) != (b, e));
+                    assert!([a, b, c].iter().all(|v| nodes.contains(v)));
+                    let parts = parts.map(&mut part);
+                    assert!(nodes.is_disjoint(&parts[0]));
+                    assert!([d, e, f].iter().all(|v| parts[0].contains(v)));
+                    assert!(!nodes.contains(&g) && !parts[0].contains(&g));
+                    let pairs = [[a, d], [b, e], [c, g], [g, f]];
+                    for (pair, part) in pairs.iter().zip(&parts[1..]) {
+                        assert!(pair.iter().all(|v| part.contains(v)));
+                    }
+                    nodes.extend(parts.into_iter().flatten());
+                }
                 Merge::Biclique { parts, at } => {
                     assert_eq!(Nodes::from(at).len(), 5);
                     let parts = parts.map(&mut part);
@@ -156,7 +183,10 @@ fn replay(graph: &Graph, known: Known, contraction: &Contraction) -> Vec<Nodes> 
 /// Known parts and edges merged by the rules of a model until none applies, by trying everything.
 fn naive(graph: &Graph, known: &KnownParts, model: Model) -> BTreeSet<Nodes> {
     let find = |parts: &[Nodes]| match model {
-        Model::Projective => find_cycle(parts, 3).or_else(|| find_biclique(parts)),
+        Model::Projective => find_cycle(parts, 3)
+            .or_else(|| find_biclique(parts))
+            .or_else(|| find_tripod(parts))
+            .or_else(|| find_link(parts)),
         Model::Affine => find_cycle(parts, 3),
         Model::Calibrated => find_cycle(parts, 4),
     };
@@ -214,6 +244,70 @@ fn find_biclique(parts: &[Nodes]) -> Option<Vec<usize>> {
             .filter_map(|&v| Some([with(a, v)?, with(v, b)?]));
         let ways: Vec<[usize; 2]> = ways.filter(|[p, q]| p != q).take(3).collect();
         (a != b && ways.len() == 3).then(|| ways.concat())
+    })
+}
+
+/// The first part that has both nodes.
+fn with(parts: &[Nodes], x: u32, y: u32) -> Option<usize> {
+    (0..parts.len()).find(|&k| x != y && parts[k].contains(&x) && parts[k].contains(&y))
+}
+
+/// Nodes outside of a part in a part with one of its nodes: the node, that one, the part.
+fn around(parts: &[Nodes], body: usize) -> Vec<(u32, u32, usize)> {
+    let others = (0..parts.len()).filter(|&k| k != body);
+    let pairs = others.flat_map(|k| {
+        let outside = parts[k].difference(&parts[body]);
+        outside.flat_map(move |&x| parts[k].intersection(&parts[body]).map(move |&a| (x, a, k)))
+    });
+    pairs.collect()
+}
+
+/// A part, and a node outside with one way of one part to it and two of two parts.
+fn find_tripod(parts: &[Nodes]) -> Option<Vec<usize>> {
+    (0..parts.len()).find_map(|body| {
+        let around = around(parts, body);
+        around.iter().find_map(|&(d, a, t)| {
+            let far = around.iter().filter(|&&(e, b, _)| e != d && b != a);
+            let mut ways: Vec<(u32, [usize; 2])> = far
+                .filter_map(|&(e, _, x)| Some((e, [with(parts, d, e)?, x])))
+                .collect();
+            ways.dedup_by_key(|way| way.0);
+            let mut used = [body, t].to_vec();
+            used.extend(ways.iter().take(2).flat_map(|way| way.1));
+            used.sort_unstable();
+            used.dedup();
+            (ways.len() >= 2).then_some(used)
+        })
+    })
+}
+
+/// Two parts without a common node, two parts between them at different nodes, and a way of two.
+fn find_link(parts: &[Nodes]) -> Option<Vec<usize>> {
+    (0..parts.len()).find_map(|body| {
+        let near = around(parts, body);
+        let disjoint = |&k: &usize| parts[k].is_disjoint(&parts[body]);
+        (0..parts.len()).filter(disjoint).find_map(|other| {
+            let direct = near.iter().filter(|(x, _, _)| parts[other].contains(x));
+            let direct: Vec<_> = direct.collect();
+            let far = around(parts, other);
+            let firsts = near.iter().filter(|(x, _, _)| !parts[other].contains(x));
+            let ways = firsts.flat_map(|&(g, c, first)| {
+                let seconds = far.iter().filter(move |&&(x, _, _)| x == g);
+                seconds.map(move |&(_, f, second)| (c, f, [first, second]))
+            });
+            ways.into_iter().find_map(|(c, f, way)| {
+                direct.iter().find_map(|&&(d, a, one)| {
+                    let fits = |&&&(e, b, _): &&&(u32, u32, usize)| {
+                        a != b && d != e && (c, f) != (a, d) && (c, f) != (b, e)
+                    };
+                    let &&(_, _, two) = direct.iter().find(fits)?;
+                    let mut used = vec![body, other, one, two, way[0], way[1]];
+                    used.sort_unstable();
+                    used.dedup();
+                    Some(used)
+                })
+            })
+        })
     })
 }
 
@@ -542,6 +636,52 @@ fn bicliques_by_hand() {
     let second = [(2, 5), (3, 5), (2, 6), (5, 7), (6, 7)];
     nested.extend(second);
     check(&graph(8, &nested), Model::Projective);
+}
+
+/// A triangle or two, and what joins them.
+#[test]
+fn tripods_and_links_by_hand() {
+    let finals = |pairs: &[(u32, u32)]| {
+        let graph = graph(1 + pairs.iter().map(|pair| pair.1).max().unwrap(), pairs);
+        check(&graph, Model::Projective);
+        let contraction = Contraction::new(&graph, Model::Projective);
+        contraction.finals.len() + contraction.loose.len()
+    };
+    let body = [(0, 1), (0, 2), (1, 2)];
+    let with = |more: &[(u32, u32)]| [&body[..], more].concat();
+    // Ways 3-0, 3-4-1, 3-5-2.
+    let tripod = with(&[(0, 3), (3, 4), (1, 4), (3, 5), (2, 5)]);
+    assert_eq!(finals(&tripod), 1);
+    // Two ways end in node 0, as does the third: each is a cycle of three with it or moves.
+    let at_one = with(&[(0, 3), (3, 4), (1, 4), (3, 5)]);
+    assert_eq!(finals(&at_one), 1 + 4);
+    // A way of two that leads into the body at once: 11 * 6 - 15 = 51 > 29 + 3 * 7.
+    let inside = [
+        (0, 1),
+        (0, 2),
+        (0, 3),
+        (1, 2),
+        (1, 3),
+        (2, 3),
+        (0, 4),
+        (4, 5),
+        (1, 5),
+    ];
+    assert_eq!(finals(&inside), 1 + 3);
+    // Two triangles, three pairs between them.
+    let six = with(&[(3, 4), (3, 5), (4, 5), (0, 3), (1, 4), (2, 5)]);
+    assert_eq!(finals(&six), 1);
+    // Two pairs and a way of two, whose ends are their own or those of the pairs crosswise.
+    let link = |c: u32, f: u32| {
+        let mut pairs = with(&[(3, 4), (3, 5), (4, 5), (0, 3), (1, 4)]);
+        pairs.extend([(c, 6), (f, 6)]);
+        finals(&pairs)
+    };
+    assert_eq!(link(2, 5), 1);
+    assert_eq!(link(0, 5), 1);
+    assert_eq!(link(0, 4), 1);
+    // Both ends are those of one pair: that is a triangle.
+    assert_eq!(link(0, 3), 3 + 1);
 }
 
 /// Pairs of different nodes below `nodes`.

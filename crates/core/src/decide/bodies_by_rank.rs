@@ -56,15 +56,10 @@ pub(super) fn extend(
         if large.iter().all(|(_, core)| core.nodes.len() < 2 * size) {
             break;
         }
-        let search = Search {
-            assembly: &assembly,
-            sha256,
-            options,
-        };
+        let search = Search::new(&assembly, sha256, options);
         let regions = regions(graph, &contraction, &large, size);
-        let found = regions.par_iter().map(|region| search.rigid_parts(region));
-        let found: Vec<_> = found.collect::<Result<_, VerdictError>>()?;
-        let (unions, bounds): (Vec<_>, Vec<_>) = found.into_iter().flatten().unzip();
+        let found = search.all_rigid_parts(&regions)?;
+        let (unions, bounds): (Vec<_>, Vec<_>) = found.into_iter().unzip();
         if unions.is_empty() {
             size *= 2;
             continue;
@@ -98,7 +93,7 @@ fn large_pieces(assembly: &Assembly) -> Vec<(Members, Core)> {
 
 /// Members of pieces by regions of so many core nodes: an edge is in the region that has both its
 /// ends, a body in all that have two of its core nodes. O(n + m) and sorting.
-fn regions(
+pub(super) fn regions(
     graph: &Graph,
     contraction: &Contraction,
     pieces: &[(Members, Core)],
@@ -170,13 +165,32 @@ fn partition(graph: &Graph, in_core: &[bool], size: usize) -> (Vec<u32>, usize) 
     (region_of, regions as usize)
 }
 
-struct Search<'a> {
+/// Looks for rigid parts among members.
+pub(super) struct Search<'a> {
     assembly: &'a Assembly,
     sha256: &'a [u8; 32],
     options: &'a Options,
 }
 
-impl Search<'_> {
+impl<'a> Search<'a> {
+    pub(super) fn new(assembly: &'a Assembly, sha256: &'a [u8; 32], options: &'a Options) -> Self {
+        Self {
+            assembly,
+            sha256,
+            options,
+        }
+    }
+
+    /// Rigid parts of each of some lists of members, side by side.
+    pub(super) fn all_rigid_parts(
+        &self,
+        among: &[Members],
+    ) -> Result<Vec<(Members, Evidence)>, VerdictError> {
+        let found = among.par_iter().map(|members| self.rigid_parts(members));
+        let found: Vec<_> = found.collect::<Result<_, VerdictError>>()?;
+        Ok(found.into_iter().flatten().collect())
+    }
+
     /// Parts of two members or more that have full rank by themselves, each with the lower bound
     /// that shows it. No member is in two of them.
     fn rigid_parts(&self, members: &Members) -> Result<Vec<(Members, Evidence)>, VerdictError> {

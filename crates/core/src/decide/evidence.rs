@@ -45,6 +45,8 @@ pub enum Evidence {
         /// Rows and columns.
         pivots: Pivots,
     },
+    /// The graph has one solution, which its number of solutions shows (docs/certificate.md, section 7).
+    OneSolution,
     /// An upper bound.
     Counting(Counting),
     /// The rank at draws that nobody can choose.
@@ -79,7 +81,7 @@ impl Evidence {
                 };
                 classes.iter().filter_map(of_class).min()
             }
-            Self::Counting(_) | Self::Draws(_) => None,
+            Self::OneSolution | Self::Counting(_) | Self::Draws(_) => None,
         }
     }
 }
@@ -207,6 +209,19 @@ pub struct PieceVerdict {
 }
 
 impl PieceVerdict {
+    /// A piece with all nodes of a graph that has one solution.
+    pub(super) fn of_one_solution(members: Members, rank: usize) -> Self {
+        Self {
+            components: vec![members.clone()],
+            members,
+            evidence: vec![Evidence::OneSolution],
+            lower: rank,
+            upper: rank,
+            rank_strength: Strength::Proof,
+            components_strength: Strength::Proof,
+        }
+    }
+
     /// The smallest prime of residues that it rests on.
     pub(super) fn prime(&self) -> Option<u64> {
         smallest_prime(&self.evidence)

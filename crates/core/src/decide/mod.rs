@@ -15,6 +15,7 @@
 //!     counting   a partition and hubs -> an upper bound                     5
 //!                a gap is left: draws that nobody chooses, an error bound   7.2
 //!   conclude   ranks add up; the verdict, and the components                4.6
+//!   rounds     nodes removed, the rest rigid -> members merge                18
 //!   solutions  how many a finite solvable graph has: one makes it solvable   10
 //! ```
 //!
@@ -22,7 +23,7 @@
 //! pieces are in `one_piece` and `walk`, bodies that ranks give before in `bodies_by_rank`, their ranks at some
 //! centres in `drawn`, classes in `motion_class`, bounds in `counting`, the
 //! paper's own matrix (`--method matrix`, `--rational`) in `whole_matrix`, the number of solutions in
-//! `solution_count`. What unknown base lines that frames share add to it is in `base_lines`; what a decided
+//! `rounds` and `solution_count`. What unknown base lines that frames share add to it is in `base_lines`; what a decided
 //! graph can notice (section 15) in `redundancy`. What is asked is in `question`, with what it is decided in
 //! `options`, what is found in [`evidence`], what comes out in `verdict`.
 
@@ -41,6 +42,7 @@ mod own_frame;
 mod plane_piece;
 mod question;
 mod redundancy;
+mod rounds;
 mod solution_count;
 mod stresses;
 mod vectors;
@@ -61,6 +63,7 @@ pub use own_frame::{OwnFrame, TurningPart};
 pub use plane_piece::{plane_rank, rank_in_plane};
 pub use question::{Arithmetic, CountSolutions, Known, Meaningless, Question};
 pub use redundancy::{Closure, Groups, closure, groups};
+pub use rounds::{Joined, Round, Rounds};
 pub use solution_count::SolutionCount;
 pub use verdict::{Component, UnknownValue, Value, Verdict};
 
@@ -106,6 +109,12 @@ pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError>
     };
     let (contraction, sha256) = rayon::join(contract, || sha256(graph));
     work.done(0)?;
+    let whole = Whole::new(graph, &contraction, &sha256, options);
+    if let Some(whole) = &whole
+        && let Some(rounds) = whole.first_rounds()?
+    {
+        return Ok(whole.conclude(rounds)?);
+    }
     let (contraction, by_rank) = bodies_by_rank::extend(graph, contraction, &sha256, options)?;
     let placed = match known {
         Known::Displacements(known) => Placed::new(graph.nodes(), known),
@@ -128,7 +137,7 @@ pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError>
         _ => None,
     };
     let (known_parts, displacements) = known.clone().split();
-    let found = Found {
+    let mut found = Found {
         graph,
         options,
         known_parts,
@@ -137,7 +146,17 @@ pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError>
         by_rank,
         rigid,
         pieces,
+        rounds: None,
     };
+    if let Some(whole) = &whole
+        && found.value(found.rank(), &contraction) == Value::FiniteSolvable
+    {
+        let rounds = whole.rounds(true)?;
+        if rounds.is_one() {
+            return Ok(whole.conclude(rounds)?);
+        }
+        found.rounds = Some(rounds);
+    }
     let mut verdict = found.conclude(sha256, contraction)?;
     if let Some(given) = own_frame {
         let (of, contraction) = ((graph, sha256), &verdict.contraction);
@@ -175,6 +194,87 @@ fn check_known(graph: &Graph, known: &Known) -> Result<(), VerdictError> {
 /// How many components with several members a quick count looks at.
 const MOST_COMPONENTS: usize = 16;
 
+/// A graph whose members, unique by the rules, are one piece: what rounds go on from.
+struct Whole<'a> {
+    graph: &'a Graph,
+    contraction: Contraction,
+    assembly: Assembly,
+    members: Members,
+    sha256: &'a [u8; 32],
+    options: &'a Options,
+}
+
+impl<'a> Whole<'a> {
+    /// `None` if there are several pieces or a single body, or if nobody counts solutions.
+    fn new(
+        graph: &'a Graph,
+        contraction: &Contraction,
+        sha256: &'a [u8; 32],
+        options: &'a Options,
+    ) -> Option<Self> {
+        let asked = &options.question;
+        let is_counted = asked.model == Model::Projective
+            && !asked.whole_graph
+            && asked.arithmetic == Arithmetic::Prime
+            && asked.solutions != CountSolutions::Off;
+        if !is_counted || contraction.finals.len() + contraction.loose.len() < 2 {
+            return None;
+        }
+        let assembly = Assembly::new(graph, contraction);
+        let Split { rigid, mut pieces } = assembly.split(&assembly.all());
+        let members = pieces
+            .pop()
+            .filter(|_| pieces.is_empty() && rigid.is_empty())?;
+        (assembly.count_nodes(&members) == graph.nodes()).then(|| Self {
+            graph,
+            contraction: contraction.clone(),
+            assembly,
+            members,
+            sha256,
+            options,
+        })
+    }
+
+    fn nodes_of_members(&self) -> Vec<Vec<u32>> {
+        nodes_of(&self.contraction, &self.members.bodies, &self.members.edges)
+    }
+
+    /// Rounds that leave one member, where equations are so many that they probably do: one rank
+    /// serves the verdict and the first of them.
+    fn first_rounds(&self) -> Result<Option<Rounds>, VerdictError> {
+        let members = self.nodes_of_members();
+        if !rounds::may_be_many(self.graph.nodes(), &members) {
+            return Ok(None);
+        }
+        Ok(Some(self.rounds(false)?).filter(Rounds::is_one))
+    }
+
+    fn rounds(&self, is_patient: bool) -> Result<Rounds, VerdictError> {
+        let (nodes, members) = (self.graph.nodes(), self.nodes_of_members());
+        rounds::merge(nodes, members, self.sha256, self.options, is_patient)
+    }
+
+    /// The verdict where rounds leave one member, which proves the rank too.
+    fn conclude(&self, rounds: Rounds) -> Result<Verdict, Stopped> {
+        let (known_parts, displacements) = self.options.question.known.clone().split();
+        let found = Found {
+            graph: self.graph,
+            options: self.options,
+            known_parts,
+            displacements,
+            assembly: &self.assembly,
+            by_rank: Vec::new(),
+            rigid: Members::default(),
+            pieces: vec![PieceVerdict::of_one_solution(
+                self.members.clone(),
+                Model::Projective.required(self.graph.nodes()),
+            )],
+            rounds: Some(rounds),
+        };
+        found.conclude(*self.sha256, self.contraction.clone())
+    }
+}
+
 /// What is known of a graph, piece by piece.
 struct Found<'a> {
     graph: &'a Graph,
@@ -188,6 +288,8 @@ struct Found<'a> {
     rigid: Members,
     /// The other pieces.
     pieces: Vec<PieceVerdict>,
+    /// Rounds that merge members of the graph, if it is finite solvable.
+    rounds: Option<Rounds>,
 }
 
 impl Found<'_> {
@@ -195,9 +297,8 @@ impl Found<'_> {
     /// Theorem 4.10 and Corollary 4.12; affine: Theorem 13.10 and Corollary 13.12;
     /// with displacements: Theorems 13.17 and 13.18).
     fn conclude(self, sha256: [u8; 32], contraction: Contraction) -> Result<Verdict, Stopped> {
-        let rigid_rank = self.rigid_rank();
-        let rank = rigid_rank + self.pieces.iter().map(|piece| piece.lower).sum::<usize>();
-        let upper = rigid_rank + self.pieces.iter().map(|piece| piece.upper).sum::<usize>();
+        let rank = self.rank();
+        let upper = self.rigid_rank() + self.pieces.iter().map(|piece| piece.upper).sum::<usize>();
         let value = self.value(rank, &contraction);
         let value_strength = self.strength(value, upper);
         let solutions = self.solutions(value, &contraction)?;
@@ -238,6 +339,11 @@ impl Found<'_> {
     fn required(&self) -> usize {
         let scale = usize::from(!self.displacements.is_empty());
         self.model().required(self.graph.nodes()) + scale
+    }
+
+    /// The rank, which is no less.
+    fn rank(&self) -> usize {
+        self.rigid_rank() + self.pieces.iter().map(|piece| piece.lower).sum::<usize>()
     }
 
     /// The rank of the members that are pieces by themselves.
@@ -284,11 +390,29 @@ impl Found<'_> {
             Value::Solvable => Some(SolutionCount::one()),
             Value::FiniteSolvable => {
                 let effort = self.effort(contraction);
+                if let Some(found) = self.after_rounds(effort)? {
+                    return Ok(Some(found));
+                }
                 let (bodies, edges) = (&contraction.finals, &contraction.loose);
                 Some(self.count(contraction, bodies, edges, effort)?)
             }
             Value::NotFiniteSolvable => None,
         })
+    }
+
+    /// What rounds show, and counting where they end, if that is one solution.
+    fn after_rounds(&self, effort: CountSolutions) -> Result<Option<SolutionCount>, Stopped> {
+        let Some(rounds) = &self.rounds else {
+            return Ok(None);
+        };
+        if rounds.is_one() {
+            return Ok(Some(SolutionCount::by_rounds(rounds.clone())));
+        }
+        if rounds.rounds.is_empty() || effort == CountSolutions::Off {
+            return Ok(None);
+        }
+        let task = self.options.watch.task(Step::Solutions, self.graph.nodes());
+        SolutionCount::after(rounds.clone(), self.graph, effort, self.options.seed, &task)
     }
 
     /// How much is spent on counting. It is done between bodies that are unique.

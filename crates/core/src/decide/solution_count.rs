@@ -6,6 +6,7 @@
 
 use crate::decide::claim::Strength;
 use crate::decide::question::CountSolutions;
+use crate::decide::rounds::Rounds;
 use crate::graph::Graph;
 use crate::solutions::{Effort, Number, Plan, Size, Solutions, count_in};
 use crate::watch::{Stopped, Task};
@@ -32,7 +33,10 @@ pub struct SolutionCount {
     pub at_most: Option<Number>,
     /// Whether a quick count left out what a full one, which takes about a second more, often settles.
     pub full_may_tell_more: bool,
-    /// What the bounds rest on, where contraction and the model alone do not show them.
+    /// Rounds of removing nodes, where they show that there is one solution, or what is counted goes
+    /// on from them.
+    pub rounds: Option<Arc<Rounds>>,
+    /// What the bounds rest on, where contraction, rounds and the model alone do not show them.
     pub evidence: Option<Arc<Solutions>>,
 }
 
@@ -43,8 +47,36 @@ impl SolutionCount {
             at_least: Number::one(),
             at_most: Some(Number::one()),
             full_may_tell_more: false,
+            rounds: None,
             evidence: None,
         }
+    }
+
+    /// One solution, as rounds leave one member.
+    pub(super) fn by_rounds(rounds: Rounds) -> Self {
+        Self {
+            rounds: Some(Arc::new(rounds)),
+            ..Self::one()
+        }
+    }
+
+    /// Goes on from rounds, if one solution comes of it.
+    ///
+    /// # Errors
+    /// If the work is stopped.
+    pub(super) fn after(
+        rounds: Rounds,
+        graph: &Graph,
+        effort: CountSolutions,
+        seed: u64,
+        task: &Task<'_>,
+    ) -> Result<Option<Self>, Stopped> {
+        let left = rounds.left.iter().map(|(_, nodes)| nodes.clone());
+        let found = Self::of(graph, left.collect(), effort, seed, task)?;
+        Ok(found.is_one().then(|| Self {
+            rounds: Some(Arc::new(rounds)),
+            ..found
+        }))
     }
 
     /// Counts the solutions of a part of a graph that is finite solvable, in the projective model, or
@@ -79,6 +111,7 @@ impl SolutionCount {
                 .map_or(Number::one(), |found| found.at_least.clone()),
             at_most: found.as_ref().and_then(|found| found.at_most.clone()),
             full_may_tell_more: left_out,
+            rounds: None,
             evidence: found.map(Arc::new),
         })
     }
@@ -91,6 +124,27 @@ impl SolutionCount {
     /// Whether there is just one solution.
     pub fn is_one(&self) -> bool {
         self.at_most.as_ref().is_some_and(|most| *most == 1)
+    }
+
+    /// Why there is one solution, in words, where rounds show it.
+    pub fn because(&self) -> Option<String> {
+        let rounds = self.rounds.as_ref()?;
+        let (mut removed, mut of) = (0, 0);
+        for [some, all] in &rounds.removed {
+            removed += some;
+            of += all;
+        }
+        let percent = (100 * removed).div_ceil(of.max(1));
+        let times = match rounds.removed.len() {
+            1 => "1 round".to_string(),
+            times => format!("{times} rounds"),
+        };
+        let rest = if self.evidence.is_some() {
+            "; the scales of what is left have one solution"
+        } else {
+            ""
+        };
+        Some(format!("unique: {times} of removing {percent} %{rest}"))
     }
 
     /// How strong both bounds are: they are proofs, whatever was drawn.
@@ -138,6 +192,7 @@ mod tests {
                 at_least: at_least.into(),
                 at_most: at_most.map(Number::from),
                 full_may_tell_more: false,
+                rounds: None,
                 evidence: None,
             };
             (count.to_string(), count.exactly().map(small))

@@ -171,7 +171,7 @@ impl Verdict {
         let counted = self
             .solutions
             .as_ref()
-            .is_some_and(|count| count.evidence.is_some());
+            .is_some_and(|count| count.evidence.is_some() || count.rounds.is_some());
         match self.value {
             Value::Solvable if counted => Value::FiniteSolvable,
             value => value,

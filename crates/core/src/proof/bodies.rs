@@ -404,6 +404,8 @@ impl Record {
             }
             Merge::Biclique { parts, at } => self.biclique(body, parts, at)?,
             Merge::Cycle { parts, at } => self.cycle(body, parts, at)?,
+            Merge::Tripod { at, .. } => self.tripod(body, merge.parts(), at)?,
+            Merge::Link { parts, at } => self.link(body, parts, at)?,
             Merge::Scaled { .. } => return Err(Unproved::Known),
         }
         Ok(())
@@ -416,8 +418,43 @@ impl Record {
         parts: [Part; 5],
         [a, b, v1, v2, v3]: [u32; 5],
     ) -> Result<(), Unproved> {
-        let pairs = [(a, v1), (v1, b), (a, v2), (v2, b), (a, v3), (v3, b)];
-        self.around(body, &parts, &[a, b, v1, v2, v3], &pairs)
+        let pairs = [(v1, b), (a, v2), (v2, b), (a, v3), (v3, b)].map(|pair| vec![pair]);
+        self.around(body, &parts, &[(a, v1)], &pairs)
+    }
+
+    /// Theorem 18.7, as [`biclique`](Self::biclique).
+    fn tripod(
+        &mut self,
+        body: &mut Growing,
+        parts: &[Part],
+        [a, b, c, d, e, f]: [u32; 6],
+    ) -> Result<(), Unproved> {
+        let mut pairs = vec![vec![(a, d)], vec![(d, e)], vec![(e, b)], vec![(f, c)]];
+        match parts.len() {
+            4 => pairs[1].extend([(d, f), (e, f)]),
+            _ => pairs.push(vec![(d, f)]),
+        }
+        self.around(body, parts, &[(a, b), (a, c), (b, c)], &pairs)
+    }
+
+    /// Theorem 18.8, as [`biclique`](Self::biclique).
+    fn link(
+        &mut self,
+        body: &mut Growing,
+        parts: [Part; 5],
+        [a, b, c, d, e, f, g]: [u32; 7],
+    ) -> Result<(), Unproved> {
+        let held = |x: u32, y: u32, z: u32| {
+            let mut pairs = vec![(x, y)];
+            if z != x && z != y {
+                pairs.extend([(x, z), (y, z)]);
+            }
+            pairs
+        };
+        let ways = [(a, d), (b, e), (c, g), (g, f)];
+        let others = ways.map(|pair| vec![pair]);
+        let pairs: Vec<_> = [held(d, e, f)].into_iter().chain(others).collect();
+        self.around(body, &parts, &held(a, b, c), &pairs)
     }
 
     /// Rule 5 of Theorem 4.9: the four nodes are a body by rank, and share two with this one.
@@ -427,53 +464,62 @@ impl Record {
         parts: [Part; 3],
         [a, b, c, d]: [u32; 4],
     ) -> Result<(), Unproved> {
-        let pairs = [(d, a), (a, b), (b, c), (c, d)];
-        self.around(body, &parts, &[a, b, c, d], &pairs)
+        let pairs = [(a, b), (b, c), (c, d)].map(|pair| vec![pair]);
+        self.around(body, &parts, &[(d, a)], &pairs)
     }
 
-    /// Some nodes are a body by the rank of these pairs, of which this body holds the first, and each
-    /// part one of the others.
+    /// Some nodes are a body by the rank of pairs: this body holds its own ones, and each part those in
+    /// its place.
     fn around(
         &mut self,
         body: &mut Growing,
         parts: &[Part],
-        hinges: &[u32],
-        pairs: &[(u32, u32)],
+        own: &[(u32, u32)],
+        of_parts: &[Vec<(u32, u32)>],
     ) -> Result<(), Unproved> {
-        let (i, j) = pairs[0];
-        let is_edge = self.edges.binary_search(&(i.min(j), i.max(j))).is_ok();
-        let own = if is_edge {
+        let is_edge = |&(i, j): &(u32, u32)| {
+            let edge = (i.min(j), i.max(j));
+            self.edges.binary_search(&edge).is_ok()
+        };
+        let why = if own.iter().all(is_edge) {
             0
         } else {
             self.push(body.listed.clone())
         };
-        let mut whys = vec![own];
+        let mut whys = vec![why];
         let mut held = Vec::new();
         for &part in parts {
             let (nodes, why) = self.part(part)?;
             held.push(nodes);
             whys.push(why);
         }
-        let place = |v: u32| hinges.iter().position(|&x| x == v).expect("a hinge") as u32;
-        let local = pairs.iter().map(|&(i, j)| (place(i), place(j)));
+        let all = || std::iter::once(own).chain(of_parts.iter().map(Vec::as_slice));
+        let pairs: Vec<((u32, u32), usize)> = (0..)
+            .zip(all())
+            .flat_map(|(k, pairs)| pairs.iter().map(move |&pair| (pair, k)))
+            .collect();
+        let mut hinges: Vec<u32> = pairs.iter().flat_map(|&((i, j), _)| [i, j]).collect();
+        hinges.sort_unstable();
+        hinges.dedup();
+        let place = |v: u32| hinges.binary_search(&v).expect("a hinge") as u32;
+        let local = pairs.iter().map(|&((i, j), _)| (place(i), place(j)));
         let local = Graph::new(hinges.len() as u32, local).expect("pairs of the hinges");
         let rank = self.model.full(hinges.len());
         let found = eliminate(self.model, &local, rank, |_| true).ok_or(Unproved::Unlucky)?;
         let row = |(&(i, j), &mask): (&(u32, u32), &u32)| {
             let (i, j) = (hinges[i as usize], hinges[j as usize]);
-            let at = pairs
-                .iter()
-                .position(|&(x, y)| (x, y) == (i, j) || (x, y) == (j, i));
-            (i, j, mask, whys[at.expect("one of the pairs")])
+            let same = |&&((x, y), _): &&((u32, u32), usize)| (x.min(y), x.max(y)) == (i, j);
+            let &(_, k) = pairs.iter().find(same).expect("one of the pairs");
+            (i, j, mask, whys[k])
         };
         let why = self.push(Listed {
             core: found.core(|v| hinges[v as usize]),
             rows: local.edges().iter().zip(&found.masks).map(row).collect(),
             ..Listed::default()
         });
-        body.take_in(hinges, [i, j], why);
+        body.take_in(&hinges, own[0].into(), why);
         for (k, nodes) in held.iter().enumerate() {
-            body.take_in(nodes, pairs[k + 1].into(), whys[k + 1]);
+            body.take_in(nodes, of_parts[k][0].into(), whys[k + 1]);
         }
         Ok(())
     }

@@ -119,9 +119,30 @@ pub enum Rule {
     Triangle,
     /// Two nodes are joined to each of three others by members (Theorem 10.3).
     Biclique,
+    /// Three ways from a node to a member (Theorem 18.7).
+    Tripod,
+    /// Three ways between two members (Theorem 18.8).
+    Link,
+    /// A node hangs on a part that is rigid without it (Theorem 18.6).
+    Removed,
     /// The part of the core between them is finite solvable and proved to have one solution
     /// (Proposition 10.11).
     Grown,
+}
+
+impl Rule {
+    /// Its name in certificates.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Shared => "shared",
+            Self::Triangle => "triangle",
+            Self::Biclique => "biclique",
+            Self::Tripod => "tripod",
+            Self::Link => "link",
+            Self::Removed => "removed",
+            Self::Grown => "part",
+        }
+    }
 }
 
 /// Members, half-edges and the scales that are unknown; all others are one.
