@@ -55,5 +55,6 @@ mod solutions;
 mod split_merge;
 mod symptoms;
 mod table;
+mod unique;
 mod verify;
 mod watch;

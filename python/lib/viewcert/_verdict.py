@@ -65,7 +65,9 @@ class Solutions:
     at_most: Annotated[Optional[int], "An upper bound, if one is known."]
     strength: Annotated[Strength, "How strong the bounds are: ``'proof'``, or ``'error-bound'``."]
     full_may_tell_more: Annotated[bool,
-        "Whether ``solutions='full'``, which takes about a second more, often settles what is open."] = False
+        "Whether the number is open, and ``solutions='full'`` looks at more."] = False
+    because: Annotated[Optional[str],
+        "Why there is one solution, where rounds of removing cameras show it."] = None
 
     @property
     def exactly(self) -> Optional[int]:

@@ -113,7 +113,7 @@ pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError>
     if let Some(whole) = &whole
         && let Some(rounds) = whole.first_rounds()?
     {
-        return Ok(whole.conclude(rounds)?);
+        return whole.conclude(rounds);
     }
     let (contraction, by_rank) = bodies_by_rank::extend(graph, contraction, &sha256, options)?;
     let placed = match known {
@@ -153,7 +153,7 @@ pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError>
     {
         let rounds = whole.rounds(true)?;
         if rounds.is_one() {
-            return Ok(whole.conclude(rounds)?);
+            return whole.conclude(rounds);
         }
         found.rounds = Some(rounds);
     }
@@ -255,7 +255,7 @@ impl<'a> Whole<'a> {
     }
 
     /// The verdict where rounds leave one member, which proves the rank too.
-    fn conclude(&self, rounds: Rounds) -> Result<Verdict, Stopped> {
+    fn conclude(&self, rounds: Rounds) -> Result<Verdict, VerdictError> {
         let (known_parts, displacements) = self.options.question.known.clone().split();
         let found = Found {
             graph: self.graph,
@@ -296,7 +296,7 @@ impl Found<'_> {
     /// Sums up over the pieces (Theorem 4.3 and Corollary 4.6 of docs/theory.md; calibrated:
     /// Theorem 4.10 and Corollary 4.12; affine: Theorem 13.10 and Corollary 13.12;
     /// with displacements: Theorems 13.17 and 13.18).
-    fn conclude(self, sha256: [u8; 32], contraction: Contraction) -> Result<Verdict, Stopped> {
+    fn conclude(self, sha256: [u8; 32], contraction: Contraction) -> Result<Verdict, VerdictError> {
         let rank = self.rank();
         let upper = self.rigid_rank() + self.pieces.iter().map(|piece| piece.upper).sum::<usize>();
         let value = self.value(rank, &contraction);
@@ -309,7 +309,7 @@ impl Found<'_> {
             Some(_) => components
                 .iter_mut()
                 .for_each(|all| all.solutions = solutions.clone()),
-            None => self.count_in_components(&mut components, &contraction)?,
+            None => self.count_in_components(&mut components, &contraction, &sha256)?,
         }
         Ok(Verdict {
             model: self.model(),
@@ -437,13 +437,33 @@ impl Found<'_> {
         SolutionCount::of(self.graph, members, effort, self.options.seed, &task)
     }
 
+    /// The number of solutions of a component, by rounds if they show one.
+    fn count_component(
+        &self,
+        contraction: &Contraction,
+        Members { bodies, edges }: &Members,
+        sha256: &[u8; 32],
+        effort: CountSolutions,
+    ) -> Result<SolutionCount, VerdictError> {
+        if effort != CountSolutions::Off {
+            let members = nodes_of(contraction, bodies, edges);
+            let nodes = self.graph.nodes();
+            let rounds = rounds::merge(nodes, members, sha256, self.options, true)?;
+            if rounds.is_one() {
+                return Ok(SolutionCount::by_rounds(rounds));
+            }
+        }
+        Ok(self.count(contraction, bodies, edges, effort)?)
+    }
+
     /// The numbers of solutions of components, each by itself. A quick count ends with the first that
     /// stays open, or after some of the largest.
     fn count_in_components(
         &self,
         components: &mut [Component],
         contraction: &Contraction,
-    ) -> Result<(), Stopped> {
+        sha256: &[u8; 32],
+    ) -> Result<(), VerdictError> {
         let (mut effort, mut counted) = (self.effort(contraction), 0);
         for component in components {
             let (bodies, edges) = (&component.members.bodies, &component.members.edges);
@@ -452,7 +472,7 @@ impl Found<'_> {
             let mut count = if is_one {
                 SolutionCount::one()
             } else {
-                self.count(contraction, bodies, edges, effort)?
+                self.count_component(contraction, &component.members, sha256, effort)?
             };
             // Quick counts have ended before this one.
             count.full_may_tell_more |= !is_one && effort != self.effort(contraction);

@@ -29,7 +29,7 @@ mod witness;
 mod zeros;
 
 pub use count::{Effort, count};
-pub(crate) use count::{Plan, Size, count_in};
+pub(crate) use count::{Plan, count_in};
 pub use evidence::{
     AtMost, Chart, Factor, Linear, Lower, Merge, Minor, One, Part, Place, Rule, Scale, Solutions,
     Upper,
