@@ -62,12 +62,18 @@ fn samples() -> Vec<(&'static str, String, Vec<&'static str>)> {
             "0 3\n0 4\n0 5\n1 3\n1 4\n1 5\n2 3\n2 4\n2 5\n0 6\n6 7\n7 1\n".into(),
             vec!["--model", "affine"],
         ),
+        ("rounds", unique_by_rounds(), vec![]),
         (
             "isolated camera",
             format!("{triangle}d\n"),
             vec!["--format", "edges"],
         ),
     ]
+}
+
+fn unique_by_rounds() -> String {
+    let pairs = crate::unique::two_cycles(40, 1).into_iter();
+    pairs.map(|(a, b)| format!("{a} {b}\n")).collect()
 }
 
 fn certificate(list: &str, options: &[&str]) -> String {
@@ -116,6 +122,7 @@ fn every_kind_of_evidence_is_written_and_verified() {
         "kernel",
         "linear",
         "minor",
+        "one-solution",
         "plane-flow",
         "plane-minor",
         "support",

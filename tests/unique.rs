@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::process::Command;
 
-type Pairs = Vec<(u32, u32)>;
+pub type Pairs = Vec<(u32, u32)>;
 
 /// What the program says of a graph of pairs, in its own JSON and with a certificate that it has checked.
 fn decided(pairs: &[(u32, u32)]) -> (Value, Value) {
@@ -44,10 +44,12 @@ fn answer(pairs: &[(u32, u32)]) -> (String, Value, Value) {
 }
 
 /// Two cycles through all nodes, in an order that the seed chooses, without a common pair.
-fn two_cycles(nodes: u32, seed: u64) -> Pairs {
+pub fn two_cycles(nodes: u32, seed: u64) -> Pairs {
     let mut state = seed;
     let mut below = |bound: usize| {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
         (state >> 33) as usize % bound
     };
     loop {
@@ -150,7 +152,11 @@ fn two_solutions_stay_two() {
         pairs.remove(lost);
         assert_eq!(answer(&pairs), two);
     }
-    let hanging = [&TWO[..], &[(1, 9), (3, 9), (9, 10), (1, 10), (10, 11), (9, 11)]].concat();
+    let hanging = [
+        &TWO[..],
+        &[(1, 9), (3, 9), (9, 10), (1, 10), (10, 11), (9, 11)],
+    ]
+    .concat();
     assert_eq!(answer(&hanging), two);
 }
 

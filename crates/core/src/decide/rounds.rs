@@ -64,7 +64,8 @@ const REGION: usize = 96;
 /// What all ranks of small cores may cost together, as the sum of the third powers of their nodes.
 const MOST_COST: u64 = 1 << 27;
 
-/// So many times a core as large as the first one is looked at all the same.
+/// So many times a core as large as the first one is looked at all the same, as long as every look shows
+/// something.
 const MOST_LARGE: u64 = 4;
 
 /// Smaller cores are decided in some milliseconds, before nodes are removed.
@@ -88,7 +89,7 @@ pub(super) fn merge(
     let mut state = State::new(nodes, members);
     let (mut rounds, mut removed) = (Vec::new(), Vec::new());
     let first = (state.shared.len() as u64).pow(3);
-    let mut left = MOST_COST.max(MOST_LARGE * first);
+    let mut left = MOST_COST.max(if is_patient { first } else { MOST_LARGE * first });
     let mut choice = Choice::default();
     while state.members.len() > 1 {
         let cost = (state.shared.len() as u64).pow(3).max(1);
