@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::process::Command;
 
-pub type Pairs = Vec<(u32, u32)>;
+pub(crate) type Pairs = Vec<(u32, u32)>;
 
 /// What the program says of a graph of pairs, in its own JSON and with a certificate that it has checked.
 fn decided(pairs: &[(u32, u32)]) -> (Value, Value) {
@@ -44,7 +44,7 @@ fn answer(pairs: &[(u32, u32)]) -> (String, Value, Value) {
 }
 
 /// Two cycles through all nodes, in an order that the seed chooses, without a common pair.
-pub fn two_cycles(nodes: u32, seed: u64) -> Pairs {
+pub(crate) fn two_cycles(nodes: u32, seed: u64) -> Pairs {
     let mut state = seed;
     let mut below = |bound: usize| {
         state = state

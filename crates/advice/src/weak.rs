@@ -16,7 +16,7 @@ pub(crate) use decisions::by_distance;
 use halves::Sorted;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
-use viewcert::contract::{Contraction, Merge, Part as Joined, Seed};
+use viewcert::contract::{Contraction, Part as Joined, Seed};
 use viewcert::decide::{Options, VerdictError};
 use viewcert::graph::{Adjacency, Lists};
 use viewcert::watch::Step;
