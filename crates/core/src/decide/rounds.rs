@@ -89,7 +89,11 @@ pub(super) fn merge(
     let mut state = State::new(nodes, members);
     let (mut rounds, mut removed) = (Vec::new(), Vec::new());
     let first = (state.shared.len() as u64).pow(3);
-    let mut left = MOST_COST.max(if is_patient { first } else { MOST_LARGE * first });
+    let mut left = MOST_COST.max(if is_patient {
+        first
+    } else {
+        MOST_LARGE * first
+    });
     let mut choice = Choice::default();
     while state.members.len() > 1 {
         let cost = (state.shared.len() as u64).pow(3).max(1);
