@@ -107,7 +107,7 @@ def check_biclique(bodies, at, where):
 
 
 def check_tripod(bodies, at, where):
-    """Theorem 18.7: d, e and f hang on the body at a, b and c, and d on e and f."""
+    """Theorem 19.7: d, e and f hang on the body at a, b and c, and d on e and f."""
     body, t, w, x, y, z = bodies if len(bodies) == 6 else [*bodies, bodies[2]]
     a, b, c, d, e, f = at
     need(body.isdisjoint((d, e, f)), f"{where}: one of the last three nodes is in the body")
@@ -115,7 +115,7 @@ def check_tripod(bodies, at, where):
 
 
 def check_link(bodies, at, where):
-    """Theorem 18.8: the body and t hang together in ad, be, and by the path c, g, f."""
+    """Theorem 19.8: the body and t hang together in ad, be, and by the path c, g, f."""
     body, t, w, x, y, z = bodies
     a, b, c, d, e, f, g = at
     need(body.isdisjoint(t), f"{where}: a link between bodies with a common node")

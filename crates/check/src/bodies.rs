@@ -161,7 +161,7 @@ impl Builder<'_> {
 
     /// Bodies on a cycle, of which neighbours share a node, become one (theory, rules 2 and 3 of
     /// Theorem 4.1, and rule 5 of Theorem 4.9), and so do six around a K_{2,3} (Theorem 10.3), a
-    /// tripod or a link (Theorems 18.7 and 18.8), and two scaled ones that share a node (Theorem 13.16). What comes of it is unique if all of them
+    /// tripod or a link (Theorems 19.7 and 19.8), and two scaled ones that share a node (Theorem 13.16). What comes of it is unique if all of them
     /// are.
     fn merge(&mut self, body: &mut Built, step: &Merge) -> Checked<()> {
         let places = self.places(step)?;
@@ -245,7 +245,7 @@ impl Builder<'_> {
     }
 }
 
-/// What a link between two bodies asks for besides where its nodes are (theory, Theorem 18.8).
+/// What a link between two bodies asks for besides where its nodes are (theory, Theorem 19.8).
 fn check_link([a, b, c, d, e, f, g]: [u32; 7], first: &Nodes, second: &Nodes) -> Checked<()> {
     ensure!(
         first.is_disjoint(second),

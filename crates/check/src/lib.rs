@@ -15,7 +15,7 @@
 //! | known parts are those that are given | 3 | 4.14 | `parts` |
 //! | displacements are well formed, and those that are given | 3 | 13.16 | `displacements` |
 //! | given vectors are, and nodes independent | 3, 5, 6 | 13.21 | `vectors` |
-//! | bodies come from parts, merges and ranks | 5 | 4.1, 4.9, 4.14, 4.15, 13.9, 13.16, 18.7, 18.8 | `bodies` |
+//! | bodies come from parts, merges and ranks | 5 | 4.1, 4.9, 4.14, 4.15, 13.9, 13.16, 19.7, 19.8 | `bodies` |
 //! | no edge is covered twice | 6 | 4.4 | `structure` |
 //! | pieces: a partition, no cycle | 6 | 4.3, 4.7, 4.10, 13.10, 13.17 | `division` |
 //! | cores are formed | 6 | 4.4, 4.11, 13.11, 13.18 | `structure` |
@@ -27,7 +27,7 @@
 //! | motions tell classes apart | 7, 9 | 6.4, 6.7, 6.8, 13.13, 13.19 | `kernel` |
 //! | unknown base lines | 13 | 13.26, 13.27 | `base_lines`, with `frames` and `matrix` |
 //! | a frame of its own | 16 | 13.29 to 13.31 | `own_frame` |
-//! | the number of solutions | 12 | 10.2 to 10.17, 18.3, 18.6 | `solutions`, a file for each kind |
+//! | the number of solutions | 12 | 10.2 to 10.17, 19.3, 19.6 | `solutions`, a file for each kind |
 //! | what is determined at given cameras | 14 | 16.1 to 16.4 | `here`, all of it |
 //! | what is determined of intrinsics | 15 | 17.3, 17.6 to 17.9 | `intrinsics`, all of it |
 //! | contradictions between pairs, and whose numbers they are | contradictions.md | | `contradictions`, all of it |

@@ -541,7 +541,7 @@ fn section_5_tripods() {
             assert!(reason.starts_with(step), "{moved:?}: {reason}");
         }
     }
-    // With a node of the body it is false (theory, Theorem 18.7).
+    // With a node of the body it is false (theory, Theorem 19.7).
     let inside = tripod(
         json!([[0, 4], [3, 4], [1, 3], [2, 6], [4, 6]]),
         &[0, 1, 2, 4, 3, 6],

@@ -86,7 +86,7 @@ fn shared(members: impl Iterator<Item = Vec<u32>>) -> Vec<Nodes> {
 }
 
 /// (S2): two nodes that members share (theory, Theorem 4.1, rule 2), three corners (rule 3), the
-/// biclique K_{2,3} (Theorem 10.3), a tripod (Theorem 18.7), or a link (Theorem 18.8).
+/// biclique K_{2,3} (Theorem 10.3), a tripod (Theorem 19.7), or a link (Theorem 19.8).
 fn check_rule(merge: &Merge, taken: &[Nodes]) -> Checked<()> {
     let pairs: Vec<[u32; 2]> = match (merge.rule.as_str(), merge.at.as_slice()) {
         ("shared", &[a, b]) => vec![[a, b]],
@@ -153,7 +153,7 @@ fn check_link([a, b, c, d, e, f, g]: [u32; 7], taken: &[Nodes]) -> Checked<()> {
     Ok(())
 }
 
-/// (U4): a node outside of the part of the round, and nodes of it (theory, Theorems 18.3 and 18.6).
+/// (U4): a node outside of the part of the round, and nodes of it (theory, Theorems 19.3 and 19.6).
 fn check_removed(merge: &Merge, taken: &[Nodes], part: &Nodes) -> Checked<()> {
     let (v, ends) = merge.at.split_first().unwrap_or((&0, &[]));
     let different: HashSet<&u32> = merge.at.iter().collect();

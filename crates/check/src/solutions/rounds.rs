@@ -1,5 +1,5 @@
 //! Rounds: a part that is rigid without a node determines its neighbours there together with it
-//! (conditions (U1) to (U4) of section 12; theory, Theorems 18.3 and 18.6).
+//! (conditions (U1) to (U4) of section 12; theory, Theorems 19.3 and 19.6).
 
 use super::members::{Members, Nodes};
 use crate::core::{Core, Joined};

@@ -1,12 +1,12 @@
 //! Merging five members or six in the projective model: around a K_{2,3} (docs/theory.md, Theorem
-//! 10.3), a tripod or a link (Theorems 18.7 and 18.8).
+//! 10.3), a tripod or a link (Theorems 19.7 and 19.8).
 //!
 //! In: bodies and loose edges of which no two share two nodes and no three pairwise share one. Out:
 //! new bodies. In a K_{2,3} two nodes a, b are joined to each of three others, a by the one
 //! member, b by another. In a tripod a node is joined to a body by one member, and by two ways of two
 //! members; if both ways end in one node, that is a K_{2,3}. In a link two bodies are joined by two
 //! members, and by a way of two. That members differ and that ways are in general position follows
-//! from what goes in (Propositions 10.12 and 18.9). A member
+//! from what goes in (Propositions 10.12 and 19.9). A member
 //! is used by one merge a call; whoever calls closes under the other rules again and comes back.
 
 use super::body::{Body, Merge, Part, Seed};

@@ -5,7 +5,7 @@
 //! two rules that are left: bodies that share two nodes, and three bodies that
 //! pairwise share a node. In the calibrated model four bodies around a cycle are one as well
 //! (rule 5 of Theorem 4.9), in the projective one six bodies around a K_{2,3} (Theorem 10.3), or around
-//! a tripod or a link (Theorems 18.7 and 18.8). Known
+//! a tripod or a link (Theorems 19.7 and 19.8). Known
 //! parts are bodies from the start (Theorem 4.14). Every step is recorded, and the record is the
 //! proof. Bodies by rank (Proposition 4.15) are found by whoever decides, and go on here.
 
@@ -101,7 +101,7 @@ impl Contraction {
     }
 
     /// Closed under cycles of two and three (Theorem 4.1; affine: 13.9), in the projective model also
-    /// under K_{2,3}, tripods and links (Theorems 10.3, 18.7 and 18.8), as far as their steps reach.
+    /// under K_{2,3}, tripods and links (Theorems 10.3, 19.7 and 19.8), as far as their steps reach.
     fn by_triangles(given: Given, model: Model) -> Self {
         let Given { mut bodies, rest } = given;
         let graph = &*rest;

@@ -15,7 +15,7 @@
 //!     counting   a partition and hubs -> an upper bound                     5
 //!                a gap is left: draws that nobody chooses, an error bound   7.2
 //!   conclude   ranks add up; the verdict, and the components                4.6
-//!   rounds     nodes removed, the rest rigid -> members merge                18
+//!   rounds     nodes removed, the rest rigid -> members merge                19
 //!   solutions  how many a finite solvable graph has: one makes it solvable   10
 //! ```
 //!

@@ -1,8 +1,8 @@
-//! Uniqueness at any size: rounds of removing nodes (docs/theory.md, section 18).
+//! Uniqueness at any size: rounds of removing nodes (docs/theory.md, section 19).
 //!
 //! In: uniquely determined members, closed under the rules of contraction. Out: rounds that merge them.
 //! A round removes some nodes, no two of one small member. Where what is left is rigid, each of them is
-//! determined together with its neighbours there (Theorem 18.6), and its members merge. Then the rules
+//! determined together with its neighbours there (Theorem 19.6), and its members merge. Then the rules
 //! go on. One rank decides about all nodes of a round; if it is too small, fewer nodes are removed.
 
 use crate::contract::piece::{Assembly, Members};

@@ -422,7 +422,7 @@ impl Record {
         self.around(body, &parts, &[(a, v1)], &pairs)
     }
 
-    /// Theorem 18.7, as [`biclique`](Self::biclique).
+    /// Theorem 19.7, as [`biclique`](Self::biclique).
     fn tripod(
         &mut self,
         body: &mut Growing,
@@ -437,7 +437,7 @@ impl Record {
         self.around(body, parts, &[(a, b), (a, c), (b, c)], &pairs)
     }
 
-    /// Theorem 18.8, as [`biclique`](Self::biclique).
+    /// Theorem 19.8, as [`biclique`](Self::biclique).
     fn link(
         &mut self,
         body: &mut Growing,

@@ -119,11 +119,11 @@ pub enum Rule {
     Triangle,
     /// Two nodes are joined to each of three others by members (Theorem 10.3).
     Biclique,
-    /// Three ways from a node to a member (Theorem 18.7).
+    /// Three ways from a node to a member (Theorem 19.7).
     Tripod,
-    /// Three ways between two members (Theorem 18.8).
+    /// Three ways between two members (Theorem 19.8).
     Link,
-    /// A node hangs on a part that is rigid without it (Theorem 18.6).
+    /// A node hangs on a part that is rigid without it (Theorem 19.6).
     Removed,
     /// The part of the core between them is finite solvable and proved to have one solution
     /// (Proposition 10.11).
