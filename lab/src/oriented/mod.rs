@@ -61,8 +61,7 @@ impl<'a> Search<'a> {
         let members: Vec<Vec<u32>> = bodies.chain(edges).collect();
         let number = solutions.exactly().map(u64::try_from)?.ok()? as usize;
         // Theorem 10.18 is about tight cores.
-        let lower = solutions.lower.as_ref();
-        let lower = lower.filter(|lower| lower.relations.is_empty())?;
+        let lower = solutions.lower.as_ref()?;
         if graph.nodes() > MOST_NODES || !(2..=MOST_SOLUTIONS).contains(&number) {
             return None;
         }
