@@ -54,12 +54,7 @@ class Pieces(UpperBounds):
         classes = [self.check_classes(value, group, at) for value, at in kinds["classes"]]
         lower = [(self.check_lower(value, core, at), value) for value, at in kinds["lower"]]
         lower = [(self.core_rank_to_rank(rank, core, piece.required), value) for rank, value in lower]
-        for value, at in kinds["one-solution"]:
-            members(value, "kind", at)
-            need(self.projective, f"{at}: projective model only")
-            need(set(group) == self.everything, f"{at}: the piece is not the whole graph")
-            piece.by_solutions = True
-            lower.append((piece.required, value))
+        lower += [(self.check_one_solution(value, group, piece, at), value) for value, at in kinds["one-solution"]]
         piece.lower = max(rank for rank, _ in lower)
         need(piece.lower <= piece.upper, f"{where}a lower bound is above an upper bound or required")
         counted = None if core.scales or self.vectors is not None else counted_rank(core.n, core.edges, self.model)
@@ -86,6 +81,14 @@ class Pieces(UpperBounds):
                 piece.errors = piece.errors + [piece.error]
         else:
             need(piece.lower == piece.required, f"{where}neither rigid nor divided into classes")
+
+    def check_one_solution(self, value, group, piece, where):
+        """Section 7, one-solution: the rank of the piece, if section 12 shows that there is one."""
+        members(value, "kind", where)
+        need(self.projective, f"{where}: projective model only")
+        need(set(group) == self.everything, f"{where}: the piece is not the whole graph")
+        piece.by_solutions = True
+        return piece.required
 
     def check_draws(self, value, core, where):
         """Section 9, draws: the rank of the core, the seed, the draws, and the error bound."""
