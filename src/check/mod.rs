@@ -32,8 +32,7 @@ pub(super) struct CheckArguments {
     /// A certificate, a file with one a line (.jsonl, .jsonl.gz), or a folder.
     #[arg(value_name = "CERTIFICATE")]
     certificate: PathBuf,
-    /// The graph it is about; not needed if the certificate embeds it. Of one of contradictions the COLMAP database: its
-    /// numbers have to be those.
+    /// The graph it is about, if the certificate embeds none; the COLMAP database of one of contradictions.
     #[arg(value_name = "GRAPH")]
     graph: Option<PathBuf>,
     /// Ask `viewcert-proved` as well, with this explicit proof.
