@@ -247,10 +247,7 @@ impl Builder<'_> {
 
 /// What a link between two bodies asks for besides where its nodes are (theory, Theorem 19.8).
 fn check_link([a, b, c, d, e, f, g]: [u32; 7], first: &Nodes, second: &Nodes) -> Checked<()> {
-    ensure!(
-        first.is_disjoint(second),
-        "a link between two bodies that have a node in common"
-    );
+    ensure!(first.is_disjoint(second), "a link's bodies share a node");
     ensure!(
         !first.contains(&g) && !second.contains(&g),
         "node {g} is in one of the two bodies that a link joins"

@@ -625,7 +625,7 @@ fn section_5_links() {
             with(),
             at,
             &[("/bodies/0/add", json!([3, 6, 7]))],
-            "a link between two bodies that have a node in common",
+            "a link's bodies share a node",
         ),
         (
             with(),
