@@ -38,13 +38,17 @@ pub(crate) struct Foreword<'a> {
 impl Foreword<'_> {
     fn html(&self) -> String {
         let (answer, is_good) = &self.answer;
+        let lines = |text: &str| -> String {
+            let lines = text.lines().map(|line| escaped(line) + "\n");
+            lines.collect()
+        };
         format!(
             "<div id=\"answer\" class=\"{}\"><p class=\"answer\">{}</p></div>\n<pre id=\"words\">{}</pre>\n\
              <details><summary>All parts, joints, notes and verdicts</summary><pre id=\"rest\">{}</pre></details>\n",
             if *is_good { "good" } else { "bad" },
             escaped(answer),
-            escaped(self.text),
-            escaped(self.rest)
+            lines(self.text),
+            lines(self.rest)
         )
     }
 }
