@@ -5,6 +5,7 @@
 //! once, for its pairs, its tracks and the geometry of single pairs; nobody who wants to write to it is
 //! kept waiting while something is decided.
 
+use super::contradictions::ANGLE;
 use super::input::{self, Input, InputArguments, Inputs};
 use super::intrinsics;
 use anyhow::{Context, Result, bail, ensure};
@@ -16,6 +17,7 @@ use viewcert::Known;
 use viewcert::Verdict;
 use viewcert::decide::{Options, Question, decide};
 use viewcert::geometry::model::Model;
+use viewcert_advice::contradictions::contradictions;
 use viewcert_advice::export::shell;
 use viewcert_advice::{Advice, Request, Shapes, Tracks, foreseen};
 use viewcert_formats::colmap::{Database, DatabaseError, is_database};
@@ -23,6 +25,7 @@ use viewcert_formats::error::{Problem, ReadError};
 use viewcert_formats::{NamedGraph, ReadOptions, open_database, read_graphs, with_rigs};
 use viewcert_report::Report;
 use viewcert_report::assumptions::{self, Scope};
+use viewcert_report::contradictions::Contradicted;
 use viewcert_report::database::other_mapper;
 use viewcert_report::next::{File, next};
 use viewcert_report::overview::{Next, Overview, Wanted};
@@ -158,7 +161,13 @@ pub(super) fn run(session: &Session, arguments: &OverviewArguments) -> Result<u8
             } else {
                 screen::write(out, found, arguments.all)?;
             }
-            Ok(if found.determined() { GOOD } else { NOT })
+            let contradicts = found.contradictions.as_ref();
+            let is_good = contradicts.is_none_or(|found| found.report().is_good());
+            Ok(if found.determined() && is_good {
+                GOOD
+            } else {
+                NOT
+            })
         })
     };
     let read = |path: &Path| asked.inputs(path);
@@ -368,6 +377,14 @@ fn overview(
         proof: None,
         here: None,
     };
+    let contradicted = database.map(|database| -> Result<_> {
+        let motions = database.motions(false)?;
+        database.rest()?;
+        let found = session.watched(|watch| contradictions(&motions, ANGLE, watch));
+        let (_, found) = found.with_context(|| motions.name.clone())?;
+        Ok(Contradicted { motions, found })
+    });
+    let contradicted = contradicted.transpose()?;
     let mut found = Overview {
         name: &input.name,
         notes: notes(&source),
@@ -388,6 +405,7 @@ fn overview(
         narrow,
         parts: OnceCell::new(),
         without_base_line: Vec::new(),
+        contradictions: contradicted,
         beside: std::mem::take(&mut source.beside),
         next: Next::default(),
         time: Duration::ZERO,

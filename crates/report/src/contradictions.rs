@@ -11,6 +11,9 @@ use viewcert_advice::contradictions::{Contradictions, Look};
 use viewcert_advice::export::{python, shell};
 use viewcert_formats::Motions;
 
+/// What a line about contradictions begins with.
+const TITLE: &str = "contradictions  ";
+
 /// Motions, and what was found about them.
 pub struct ContradictionsReport<'a> {
     /// The input.
@@ -23,7 +26,37 @@ pub struct ContradictionsReport<'a> {
     pub time: Duration,
 }
 
+/// The same, of an input that more is known of.
+pub struct Contradicted {
+    /// Its motions.
+    pub motions: Motions,
+    /// What was found about them.
+    pub found: Contradictions,
+}
+
+impl Contradicted {
+    /// What there is to report.
+    pub fn report(&self) -> ContradictionsReport<'_> {
+        ContradictionsReport {
+            path: self.motions.name.clone(),
+            motions: &self.motions,
+            found: &self.found,
+            time: Duration::ZERO,
+        }
+    }
+}
+
 impl ContradictionsReport<'_> {
+    /// What makes the pairs doubtful, if anything contradicts anything.
+    pub fn doubt(&self) -> Option<String> {
+        let answer = self.answer();
+        let off = answer.strip_prefix(TITLE)?;
+        let look = self
+            .look_at()
+            .map_or_else(String::new, |look| format!("; {look}"));
+        Some(format!("{off}{look} (verify contradictions)"))
+    }
+
     /// Whether nothing contradicts anything.
     pub fn is_good(&self) -> bool {
         self.found.at_least() == 0
@@ -60,7 +93,7 @@ impl ContradictionsReport<'_> {
                 "no contradiction among {checkable}{besides}; look-alikes that agree are not seen"
             ),
             count => format!(
-                "contradictions  at least {count} of {checkable} {} off by more than {theta} degrees (proved), \
+                "{TITLE}at least {count} of {checkable} {} off by more than {theta} degrees (proved), \
                  at most {} need be{besides}",
                 if count == 1 { "is" } else { "are" },
                 found.at_most()

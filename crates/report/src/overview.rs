@@ -12,6 +12,7 @@ use super::{
 };
 use crate::advice::{joints as write_joints, photograph, suggestions as write_suggestions};
 use crate::assumptions::BaseLines;
+use crate::contradictions::{Contradicted, ContradictionsLine};
 use crate::intrinsics::IntrinsicsLine;
 use crate::shown::several;
 use serde::Serialize;
@@ -62,6 +63,8 @@ pub struct Overview<'a> {
     pub parts: OnceCell<Option<Parts>>,
     /// Parts that no pairs with a base line hold together.
     pub without_base_line: Vec<WithoutBaseLine>,
+    /// What contradicts what among the motions of a database.
+    pub contradictions: Option<Contradicted>,
     /// The other models of the folder that was named.
     pub beside: Vec<(String, usize)>,
     /// What to do next, and what to expect of it.
@@ -336,7 +339,13 @@ impl Overview<'_> {
              mappers misplace these parts silently"
                 .to_owned()
         });
-        let refuting = base_lines.chain(guessed).chain(axes).chain(turns);
+        let off = self.contradictions.as_ref();
+        let off = off.and_then(|found| found.report().doubt()).into_iter();
+        let refuting = off
+            .chain(base_lines)
+            .chain(guessed)
+            .chain(axes)
+            .chain(turns);
         let lesser = bottlenecks::warnings(&self.narrow).into_iter();
         let lesser = lesser.chain(bottlenecks::few(&self.narrow));
         let lesser = lesser.chain(self.unchecked()).map(|words| Doubt {
@@ -614,6 +623,10 @@ impl Overview<'_> {
             },
             in_no_part: self.named(&self.in_no_part()),
             without_base_line: &self.without_base_line,
+            contradictions: self
+                .contradictions
+                .as_ref()
+                .map(|found| found.report().line()),
             narrow: &self.narrow,
             mappers: self.mappers.as_ref().filter(|_| self.no_model().is_none()),
             no_model: self.no_model(),
@@ -655,6 +668,8 @@ struct Line<'a> {
     in_no_part: Vec<String>,
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     without_base_line: &'a [WithoutBaseLine],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    contradictions: Option<ContradictionsLine>,
     narrow: &'a Narrow,
     #[serde(skip_serializing_if = "Option::is_none")]
     mappers: Option<&'a Foreseen>,
