@@ -318,6 +318,24 @@ fn photographs() {
         "{}",
         run.out
     );
+    // The first screen warns of it.
+    let street = photos("street.db");
+    let run = verify(&["overview", street.to_str().unwrap()]);
+    assert_eq!(run.code, 1, "{}", run.err);
+    assert!(
+        run.out.contains("of 168 checkable pairs are off by"),
+        "{}",
+        run.out
+    );
+    let line = keeps_to(
+        "overview",
+        &verify(&["overview", "--json", street.to_str().unwrap()]),
+        &["program"],
+    );
+    assert!(
+        line[0]["contradictions"]["at_least"].as_u64() >= Some(12),
+        "{line:?}"
+    );
     let run = said(&photos("kitchen_t.db"), &[]);
     let line =
         "no contradiction among 0 checkable pairs; 76 cannot be checked (focal length unknown)";
