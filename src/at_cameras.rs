@@ -2,7 +2,6 @@
 
 use anyhow::{Context, Result, anyhow};
 use std::io::Write;
-use viewcert::Model;
 use viewcert::at_cameras::{Centres, Here, HereError, Motion, at_cameras, open_focal_lengths};
 use viewcert::watch::Watch;
 use viewcert_formats::{NamedGraph, centre_error};
@@ -44,9 +43,9 @@ pub(super) fn open(asked: Asked, input: &NamedGraph, centres: &Centres) -> Resul
 pub(super) fn motions(here: &Here, centres: &Centres, session: &Session) -> Result<Vec<Motion>> {
     let found = session.watched(|watch| here.basis_of_motions(centres, watch))?;
     if found.is_none() && !here.is_determined() {
-        let why = match here.model {
-            Model::Affine => "affine cameras have their centres at infinity",
-            _ => "too many parts move for exact velocities",
+        let why = match here.model.in_plane() {
+            true => "affine cameras have their centres at infinity",
+            false => "too many parts move for exact velocities",
         };
         // Whoever does not read it has the picture of the graph.
         let _ = writeln!(std::io::stderr(), "verify: what moves is not drawn: {why}");

@@ -32,7 +32,7 @@ pub(super) struct AuditArguments {
     graphs: Vec<PathBuf>,
     #[command(flatten)]
     input: InputArguments,
-    /// Decide a table of claims again: CSV, TSV or JSON, or what `verify --json` or `--table=csv` printed, with a graph
+    /// Decide a table of claims again: CSV or TSV, as `verify --table=csv` prints it, with a graph
     /// (columns graph, graph6, file, name) and a verdict, components, a rank a row.
     #[arg(long, value_name = "FILE", conflicts_with = "graphs")]
     claims: Option<PathBuf>,
@@ -207,8 +207,8 @@ impl Counts {
 fn all_claims(session: &Session, arguments: &AuditArguments, path: &Path) -> Result<u8> {
     ensure!(
         !arguments.input.says_anything(),
-        "options that say how graphs are read cannot be used with --claims: what `verify --json` prints says itself \
-         how its graph was read; convert others by `verify convert`"
+        "options that say how graphs are read cannot be used with --claims: the column `options` of \
+         `verify --table=csv` says it for each row; convert others by `verify convert`"
     );
     let rows = claims::read_table(&whole::text(path)?, &arguments.ignore);
     let rows = rows.map_err(|error| refused(path, &error))?;
@@ -324,7 +324,7 @@ fn rule_all(
 ) -> Result<u8> {
     let models = match claims {
         Some(claims) => claims.iter().map(|claim| claim.model).collect(),
-        None => vec![Model::Projective],
+        None => vec![Model::default()],
     };
     let mut answers: Vec<Exact> = Vec::new();
     for model in models {

@@ -154,17 +154,17 @@ impl Plan {
     fn check_question(&self) -> Result<()> {
         let (model, of_tracks) = (self.question.model, self.read.tracks.is_some());
         ensure!(
-            !of_tracks || model == Model::Calibrated,
+            !of_tracks || model.in_space(),
             "--tracks: observations are directions of known rotations, which only the calibrated \
              model has; leave out --model, or say --model calibrated"
         );
         ensure!(
-            !self.asked.planar || model != Model::Affine,
+            !self.asked.planar || !model.in_plane(),
             "--planar: affine cameras have no centres that could lie in a plane; leave out --planar, \
              or --model affine"
         );
         ensure!(
-            matches!(self.prime, Prime::Auto) || model != Model::Affine,
+            matches!(self.prime, Prime::Auto) || !model.in_plane(),
             "--prime: the affine model is decided by counting alone; leave out one of the two"
         );
         self.question.clone().checked()?;
@@ -181,7 +181,7 @@ impl Plan {
             return Ok(());
         }
         ensure!(
-            self.question.model == Model::Projective,
+            !self.question.model.is_linear(),
             "{INTRINSICS}: says what is known of each camera, and --model says it of all; leave out one of \
              the two"
         );

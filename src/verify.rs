@@ -57,7 +57,7 @@ pub(super) struct VerifyArguments {
     /// Write the explicit proof that `viewcert-proved` verifies to this file.
     #[arg(long, value_name = "FILE", help_heading = EVIDENCE, hide_short_help = true)]
     proof: Option<PathBuf>,
-    /// Print a line a graph, and a summary; or csv, or latex.
+    /// Print a line a graph, and a summary; or csv.
     #[arg(long, hide_possible_values = true, value_enum, value_name = "FORMAT", num_args = 0..=1, require_equals = true)]
     #[arg(default_missing_value = "text", hide_short_help = true)]
     #[arg(conflicts_with_all = ["json", "components", "planar", "tracks"])]
@@ -76,7 +76,6 @@ enum MethodName {
 enum TableName {
     Text,
     Csv,
-    Latex,
 }
 
 impl From<TableName> for Format {
@@ -84,7 +83,6 @@ impl From<TableName> for Format {
         match name {
             TableName::Text => Self::Text,
             TableName::Csv => Self::Csv,
-            TableName::Latex => Self::Latex,
         }
     }
 }

@@ -40,7 +40,7 @@ impl WitnessArguments {
     /// By name, what does not go together.
     pub(super) fn plan(&self) -> Result<Plan> {
         let graphs = std::slice::from_ref(&self.graph);
-        let mut plan = Plan::new(graphs, self.input.of_pairs()?, Model::Projective, self.seed);
+        let mut plan = Plan::new(graphs, self.input.of_pairs()?, Model::default(), self.seed);
         if self.full {
             plan.question.solutions = CountSolutions::Full;
         }

@@ -154,26 +154,15 @@ fn tables_that_are_not_understood_are_refused() {
     for (table, line, why) in [
         ("", 1, "empty"),
         ("graph,rank\n", 1, "no rows"),
-        ("[]", 1, "no rows"),
+        ("[]", 1, "this is JSON"),
         ("graph,rang\nC~,29\n", 1, "unknown column \"rang\""),
         ("graph,rank,Rank\nC~,29,29\n", 1, "twice"),
         ("graph,rank\nC~,29\nC~\n", 3, "1 cell, and the head has 2"),
         ("graph,rank\n\nC~,29,1\n", 3, "3 cells"),
         (
-            "[{\"graph\": \"C~\", \"rank\": 29},\n{\"graph\": \"C~\", \"verdit\": \"solvable\"}]",
-            2,
-            "\"verdit\"",
-        ),
-        (
-            "{\"graph\": \"C~\",\n \"rank\": [29]}",
+            "{\"graph\": \"C~\", \"rank\": 29}\n",
             1,
-            "a list or an object",
-        ),
-        ("{\"graph\": \"C~\", \"rank\": 1, \"rank\": 29}", 1, "twice"),
-        (
-            "{\"graph\": \"C~\"}\n[3]\n",
-            2,
-            "not a JSON list of objects",
+            "pandas.read_json('FILE').to_csv('claims.csv', index=False)",
         ),
     ] {
         let run = audit(table);
@@ -221,75 +210,6 @@ fn claims_in_all_models() {
     let said = format!("{}{}", run.out, run.err);
     let wanted = "\"plane\" is not one of projective, calibrated and affine";
     assert!(said.contains(wanted), "{said}");
-}
-
-/// What `verify --json` prints is a table of claims, in all models, of files and of lines of
-/// files; and one that has been tampered with is refuted.
-#[test]
-fn the_programs_own_lines_are_claims() {
-    let folder = tempfile::tempdir().unwrap();
-    let square = graph_file(folder.path(), "square.txt", SQUARE);
-    let lines = graph_file(folder.path(), "two.g6", "Bw\nC~\nDFw\n");
-    let audit = |claims: &str| {
-        let table = graph_file(folder.path(), "claims.jsonl", claims);
-        verify(&["audit", "--json", "--claims", &table])
-    };
-    for extra in [
-        &[][..],
-        &["--components"],
-        &["--model", "calibrated"],
-        &["--model", "affine"],
-    ] {
-        let own = verify(&[&["--json", &square, &lines], extra].concat());
-        let run = audit(&own.out);
-        assert_eq!(run.code, 0, "{}{}", run.out, run.err);
-        let rulings = run.json();
-        assert_eq!(rulings.len(), 4);
-        assert!(rulings.iter().all(|line| line["ruling"] == "confirmed"));
-        // As a list, too.
-        let list = own.out.trim().replace('\n', ",\n");
-        assert_eq!(audit(&format!("[{list}]")).code, 0);
-    }
-    let own = verify(&["--json", &square]).out;
-    for (from, to, why) in [
-        ("\"rank\":28", "\"rank\":27", "claimed rank 27, is 28"),
-        (
-            "\"rank_required\":29",
-            "\"rank_required\":28",
-            "claimed rank_required 28, is 29",
-        ),
-        (
-            "not-finite-solvable",
-            "finite-solvable",
-            "claimed finite-solvable, is not-finite-solvable",
-        ),
-        (
-            "{\"nodes\":2,\"edges\":1}]",
-            "{\"nodes\":3,\"edges\":1}]",
-            "other sizes",
-        ),
-        ("\"sha256\":\"", "\"sha256\":\"0", "another graph is meant"),
-        ("\"mode\"", "\"mood\"", "unknown member"),
-    ] {
-        let claim = own.replacen(from, to, 1);
-        assert_ne!(claim, own, "{from}");
-        let run = audit(&claim);
-        let said = format!("{}{}", run.out, run.err);
-        assert!(said.contains(why), "{from}: {said}");
-        assert!(!said.contains("confirmed"), "{said}");
-    }
-    let run = audit("{\"graph\": {\"name\": \"C~\"}}");
-    assert_eq!(run.code, 2, "{}", run.out);
-    assert!(
-        run.err
-            .contains("claims.jsonl:1: not a record as `verify --json`"),
-        "{}",
-        run.err
-    );
-    // Of standard input nothing is left.
-    let run = audit(&own.replace(&square, "-"));
-    assert_eq!(run.code, 2);
-    assert!(run.err.contains("standard input"), "{}", run.err);
 }
 
 /// Psi of docs/theory.md, Example 6.2: the published method merges what is not one component.
@@ -450,16 +370,14 @@ fn a_row_says_how_its_graph_was_read() {
             run.out
         );
     }
-    for form in [&["--table=csv"][..], &["--json"]] {
-        let given = [&[&*weights, "--given", &parts], read, form].concat();
-        let run = audit(&verify(&given).out);
-        assert_eq!(run.code, 2, "{}", run.out);
-        assert!(
-            run.err.contains("without which it is another claim"),
-            "{}",
-            run.err
-        );
-    }
+    let given = [&[&*weights, "--given", &parts, "--table=csv"], read].concat();
+    let run = audit(&verify(&given).out);
+    assert_eq!(run.code, 2, "{}", run.out);
+    assert!(
+        run.err.contains("without which it is another claim"),
+        "{}",
+        run.err
+    );
     for (options, why) in [
         ("[1]", "no JSON object"),
         (r#"{""mood"":""good""}"#, "unknown option"),
@@ -562,9 +480,9 @@ fn the_folder_of_graphs_holds_for_every_column() {
     }
 }
 
-/// A record says how its graph was read, and it is read so again.
+/// A row says how its graph was read, and it is read so again.
 #[test]
-fn records_are_read_as_they_say() {
+fn rows_are_read_as_they_say() {
     let folder = tempfile::tempdir().unwrap();
     let odd = graph_file(folder.path(), "odd.txt", "a b 1 x\nb c 2\nc a 3 y z\n");
     let table = graph_file(
@@ -579,92 +497,14 @@ fn records_are_read_as_they_say() {
         &[&table, "--columns", "one,three,w", "--min-weight", "5"],
         &[&loops, "--skip-loops"],
     ] {
-        let own = verify(&[options, &["--json"]].concat());
+        let own = verify(&[options, &["--table=csv"]].concat());
         assert!(own.code < 2, "{options:?}: {}", own.err);
-        let records = graph_file(folder.path(), "own.jsonl", &own.out);
-        let run = verify(&["audit", "--claims", &records]);
+        let rows = graph_file(folder.path(), "own.csv", &own.out);
+        let run = verify(&["audit", "--claims", &rows]);
         assert_eq!(run.code, 0, "{options:?}: {}{}", run.out, run.err);
         assert!(run.out.contains("1 confirmed"), "{options:?}: {}", run.out);
-        let wrong = own.out.replacen("\"rank\":", "\"rank\":1", 1);
-        let records = graph_file(folder.path(), "own.jsonl", &wrong);
-        assert_eq!(
-            verify(&["audit", "--claims", &records]).code,
-            1,
-            "{options:?}"
-        );
+        let wrong = own.out.replacen(",proved,", ",proved,9", 1);
+        let rows = graph_file(folder.path(), "own.csv", &wrong);
+        assert_eq!(verify(&["audit", "--claims", &rows]).code, 1, "{options:?}");
     }
-}
-
-/// What a record claims besides the verdict is decided again, or it is not confirmed; and one row that claims something
-/// else leaves the others.
-#[test]
-fn records_are_confirmed_as_a_whole() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = |name: &str, text: &str| graph_file(folder.path(), name, text);
-    let audit = |claims: &str| {
-        let records = file("own.jsonl", claims);
-        verify(&["audit", "--json", "--claims", &records])
-    };
-    let rulings = |run: &Run| -> Vec<String> {
-        let lines = lines(run).into_iter();
-        lines
-            .map(|line| line["ruling"].as_str().unwrap().to_owned())
-            .collect()
-    };
-    let complete = file("complete.txt", COMPLETE);
-    let square = file("square.txt", SQUARE);
-    // In a plane, a 4-cycle with calibrated cameras moves.
-    let options = ["--json", "--planar", "--model", "calibrated"];
-    let own = verify(&[&[&*square], &options[..]].concat()).out;
-    assert_eq!(rulings(&audit(&own)), ["confirmed"], "{own}");
-    let wrong = own.replacen(
-        "\"planar\":{\"verdict\":\"not-finite-solvable\"",
-        "\"planar\":{\"verdict\":\"solvable\"",
-        1,
-    );
-    assert_ne!(wrong, own, "{own}");
-    let run = audit(&wrong);
-    assert_eq!(
-        (run.code, rulings(&run)),
-        (1, vec!["refuted".to_owned()]),
-        "{}",
-        run.out
-    );
-    // Intrinsics are another question.
-    let intrinsics = file("intrinsics.txt", "default known\nfocal 0\n");
-    let other = verify(&[&complete, "--json", "--intrinsics", &intrinsics]);
-    assert!(other.code < 2, "{}", other.err);
-    let mixed = format!("{}{}", other.out, verify(&[&complete, "--json"]).out);
-    let run = audit(&mixed);
-    assert_eq!(
-        rulings(&run),
-        ["not decidable", "confirmed"],
-        "{}{}",
-        run.out,
-        run.err
-    );
-    assert!(run.out.contains("intrinsics"), "{}", run.out);
-    // Members of components, where they are listed.
-    let own = verify(&[&square, "--json", "--components"]).out;
-    assert_eq!(rulings(&audit(&own)), ["confirmed"], "{own}");
-    let wrong = own.replacen("\"labels\":[\"0\",\"1\"]", "\"labels\":[\"0\",\"2\"]", 1);
-    assert_ne!(wrong, own, "{own}");
-    assert_eq!(rulings(&audit(&wrong)), ["refuted"]);
-    // What is proved by a full count only.
-    let two = file("two.g6", "HBQkcP_\n");
-    for (claimed, ruling) in [("2", "confirmed"), ("3", "refuted")] {
-        let own = verify(&[&two, "--json", "--solutions=full"]).out;
-        let own = own.replace(
-            "\"exactly\":2,\"at_least\":2,\"at_most\":2",
-            &format!("\"exactly\":{claimed},\"at_least\":{claimed},\"at_most\":{claimed}"),
-        );
-        assert_eq!(rulings(&audit(&own)), [ruling], "{own}");
-    }
-    // Records of other commands claim no verdict.
-    let run = audit(&verify(&["models", &square, "--json"]).out);
-    assert!(
-        run.code == 2 && run.json()[0]["kind"] == "failed",
-        "{}",
-        run.out
-    );
 }

@@ -306,7 +306,6 @@ fn names_imitate_nothing() {
             &[&**graph][..],
             &[&**graph, "--table"],
             &[&**graph, "--table=csv"],
-            &[&**graph, "--table=latex"],
             &[&**graph, "--json"],
             &["models", graph],
             &["label", graph],

@@ -441,14 +441,14 @@ fn claims_that_rest_on_displacements_are_no_claims_of_pairs() {
         "calibrated",
         "--given",
         file.text(),
-        "--json",
+        "--table=csv",
     ];
     let run = verify_with(cycle(4).as_bytes(), &own);
-    let claims = File::new("claims.json", &run.out);
+    let claims = File::new("claims.csv", &run.out);
     let audit = verify(&["audit", "--claims", claims.text()]);
     assert_eq!(audit.code, 2, "{}", audit.out);
     assert!(
-        audit.err.contains("it rests on known displacements"),
+        audit.err.contains("without which it is another claim"),
         "{}",
         audit.err
     );

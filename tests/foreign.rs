@@ -166,25 +166,6 @@ fn no_list_is_misread() {
                 run.err.contains(gives) && run.err.contains("; "),
                 "{context}"
             );
-            // Columns are suggested where they are those of the pairs.
-            if let Some((_, behind)) = run.err.split_once("say --columns ") {
-                let columns = behind
-                    .split([',', ' ', '\n'])
-                    .take(2)
-                    .collect::<Vec<_>>()
-                    .join(",");
-                let again = verify(&[
-                    arguments[arguments.len() - 1],
-                    "--columns",
-                    &columns,
-                    "--json",
-                ]);
-                let read = format!("--columns {columns}\tread\t");
-                assert!(
-                    again.code < 2 && table.contains(&format!("{file}\t{read}")),
-                    "{context}"
-                );
-            }
             assert!(!run.err.contains("--format edges"), "{context}");
             continue;
         }
@@ -224,9 +205,7 @@ fn tables_of_something_else_are_no_graphs() {
         assert_eq!(run.code, 2, "{file}");
         is_recorded(path.to_str().unwrap(), &run, file);
         assert!(run.err.contains(phrase), "{}", run.err);
-        for option in ["--columns", "--format edges"] {
-            assert!(!run.err.contains(option), "{}", run.err);
-        }
+        assert!(!run.err.contains("--format edges"), "{}", run.err);
     }
 }
 

@@ -37,7 +37,7 @@ const FOREIGN: [&str; 7] = [
 ];
 
 /// All that is not compared: what differs between two runs, or two releases, of one program.
-static UNSTABLE: LazyLock<[(Regex, &str); 9]> = LazyLock::new(|| {
+static UNSTABLE: LazyLock<[(Regex, &str); 8]> = LazyLock::new(|| {
     let rules = [
         // Times in JSON.
         (r#""((?:[a-z]+_)?seconds)":[0-9.e+-]+"#, r#""$1":<time>"#),
@@ -50,8 +50,6 @@ static UNSTABLE: LazyLock<[(Regex, &str); 9]> = LazyLock::new(|| {
             r"(?m)([0-9]) +[0-9]+\.[0-9]{1,2}( +[0-9]+ +\S+)?$",
             "$1 <time>$2",
         ),
-        // Seconds at the end of a row of LaTeX.
-        (r"(?m)& [0-9.]+ \\\\$", r"& <time> \\"),
         // Noise of floating point about zero.
         (r"-?[0-9.]+e-[0-9]{2,}|-?[0-9.]+ decades", "<noise>"),
         // The version.

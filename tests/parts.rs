@@ -263,11 +263,15 @@ fn what_is_wrong_is_said() {
         assert!(run.err.contains(reason), "{}", run.err);
     }
     // What a report says with parts is no claim about the graph alone.
-    let report = files.name("report.jsonl");
-    fs::write(&report, files.verify(&["--json"]).out).unwrap();
+    let report = files.name("report.csv");
+    fs::write(&report, files.verify(&["--table=csv"]).out).unwrap();
     let run = verify(&["audit", "--claims", &report]);
     assert_eq!(run.code, 2);
-    assert!(run.err.contains("a graph with known parts"), "{}", run.err);
+    assert!(
+        run.err.contains("without which it is another claim"),
+        "{}",
+        run.err
+    );
     let run = verify_with(b"0 1\n", &["-", "--given", "-"]);
     assert_eq!(run.code, 2);
     assert!(

@@ -216,13 +216,6 @@ fn all_promises_of(path: &Path) {
         let said = verify(&[&[path, "--json"], options].concat());
         let line = valid(&schema(), &said).remove(0);
         assert_eq!(line["condition"], RIGHT, "{line}");
-        if options.is_empty() {
-            // Its own lines are read again.
-            let lines = folder.path().join("lines.jsonl");
-            fs::write(&lines, &said.out).unwrap();
-            let run = verify(&["audit", "--claims", lines.to_str().unwrap()]);
-            assert_eq!(run.code, 0, "{}{}", run.out, run.err);
-        }
     }
     let run = verify(&["advise", path, "--surplus"]);
     let checked = "in all 7 equations if every other pair is right (proved)";

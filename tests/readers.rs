@@ -411,20 +411,10 @@ fn own_files_are_named() {
         path(name)
     };
     let graph = write("graph.txt", "a b\nb c\nc a\n");
-    let [certificate, page, picture] = ["c.json", "page.html", "picture.svg"].map(path);
-    assert_eq!(verify(&["draw", &graph, &page, &picture]).code, 0);
+    let certificate = path("c.json");
     let text = verify(&[&graph, "--certificate", &certificate]);
     assert_eq!(text.code, 0, "{}", text.err);
-    let mut own = vec![
-        (certificate.clone(), "a certificate", "`verify check FILE"),
-        (page, "a page", "give the graph that it shows"),
-        (picture, "a picture", "give the graph that it shows"),
-        (
-            write("report.txt", &text.out),
-            "a report",
-            "give the graph that it is about",
-        ),
-    ];
+    let mut own = vec![(certificate.clone(), "a certificate", "`verify check FILE")];
     for command in [&[][..], &["audit"], &["models"], &["overview"]] {
         let run = verify(&[command, &[&*graph, "--json"]].concat());
         let name = format!("report-{}.json", command.first().unwrap_or(&"verify"));

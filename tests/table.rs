@@ -54,25 +54,6 @@ fn other_formats() {
     assert_eq!(rows.len(), 2);
     assert_eq!(&rows[1][4], "not-finite-solvable");
     assert!(rows[1][7].parse::<f64>().unwrap() >= 0.0);
-
-    let run = verify_with(LIST, &["--table=latex", "-"]);
-    assert!(
-        run.out.starts_with("\\begin{tabular}{@{}lrrrlcr@{}}\n"),
-        "{}",
-        run.out
-    );
-    assert!(
-        run.out
-            .contains(" & 4 & 67 & 4 & not-finite-solvable & 4 & 0.0"),
-        "{}",
-        run.out
-    );
-    assert!(
-        run.out
-            .contains("\n\\bottomrule\n\\end{tabular}\n% 2 graphs: "),
-        "{}",
-        run.out
-    );
 }
 
 #[test]
@@ -198,20 +179,18 @@ fn every_input_has_a_record_by_its_own_name() {
         3
     );
 
-    for form in ["--table", "--table=latex"] {
-        let run = verify(&[&[form], &inputs[..]].concat());
-        assert_eq!(
-            run.out.matches("paired with itself").count(),
-            1,
-            "{}",
-            run.out
-        );
-        assert!(
-            run.out.contains("4 graphs: ") && run.out.contains("; 3 without an answer"),
-            "{}",
-            run.out
-        );
-    }
+    let run = verify(&[&["--table"], &inputs[..]].concat());
+    assert_eq!(
+        run.out.matches("paired with itself").count(),
+        1,
+        "{}",
+        run.out
+    );
+    assert!(
+        run.out.contains("4 graphs: ") && run.out.contains("; 3 without an answer"),
+        "{}",
+        run.out
+    );
 }
 
 /// Hundreds of graphs side by side: each row is what the graph alone has, in its place.
@@ -278,11 +257,6 @@ fn a_table_counts_what_it_shows() {
             verify_with(list, &["--table", how, "-"])
                 .out
                 .contains("  solutions  ")
-        );
-        assert!(
-            verify_with(list, &["--table=latex", how, "-"])
-                .out
-                .contains("\\#sol.")
         );
     }
 }

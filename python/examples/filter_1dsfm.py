@@ -32,7 +32,7 @@ def lines_of(path: pathlib.Path) -> List[Line]:
 
 def keep(path: pathlib.Path, out: pathlib.Path) -> viewcert.Verdict[Any]:
     """Writes the lines of the largest component, and says what is lost."""
-    graph = viewcert.read(path, format="1dsfm")
+    graph = viewcert.read(path)
     verdict = viewcert.verify(graph, model="calibrated")
     print(verdict.report())
     lines = path.read_text().splitlines()

@@ -85,7 +85,7 @@ impl Decided {
 
     /// Classes, by their words.
     fn classes(&self, words: &[String]) -> PyResult<Vec<Class>> {
-        if self.verdict.model != Model::Projective {
+        if self.verdict.model.is_linear() {
             return Err(InputError::new_err(
                 "intrinsics are asked of a verdict of the projective model",
             ));

@@ -100,7 +100,7 @@ pub(crate) struct Claims(Vec<Row>);
 
 #[pymethods]
 impl Claims {
-    /// Reads comma-separated values or JSON; columns in `ignored` are left out.
+    /// Reads comma-separated values; columns in `ignored` are left out.
     #[new]
     fn new(text: &str, ignored: Vec<String>) -> PyResult<Self> {
         let rows = claims::read_table(text, &ignored);

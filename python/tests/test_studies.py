@@ -74,8 +74,10 @@ def claims() -> list[dict[str, Any]]:
 
 
 def test_claims_as_the_program_rules_on_them(tmp_path: pathlib.Path, program: Program) -> None:
-    table = tmp_path / "claims.json"
-    table.write_text(json.dumps(claims()))
+    table = tmp_path / "claims.csv"
+    heads = ["graph", "model", "verdict", "rank", "components"]
+    lines = [",".join(str(row.get(head, "")) for head in heads) for row in claims()]
+    table.write_text("\n".join([",".join(heads), *lines]) + "\n")
     done = program.run("audit", "--claims", table, "--json")
     theirs = [json.loads(line) for line in done.stdout.splitlines()]
     for mine in (viewcert.audit_claims(table), viewcert.audit_claims(claims())):

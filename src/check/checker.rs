@@ -8,7 +8,7 @@ use std::path::Path;
 use viewcert::Known;
 use viewcert::certificate::hex;
 use viewcert::graph::{Labels, sha256};
-use viewcert_check::{AnyCertificate, Expected, Graph, Model};
+use viewcert_check::{AnyCertificate, Expected, Graph};
 use viewcert_formats::{Beside, NamedGraph, ReadOptions, beside, read_meant};
 
 /// Where what is named besides a certificate comes from.
@@ -79,11 +79,8 @@ impl Named<'_> {
         if let Some(hash) = input.frames.as_ref().and_then(|frames| frames.sha256()) {
             graph = graph.with_frames(hex(&hash));
         }
-        let model = match certificate.model() {
-            Some(Model::Calibrated) => viewcert::Model::Calibrated,
-            Some(Model::Affine) => viewcert::Model::Affine,
-            Some(Model::Projective) | None => viewcert::Model::Projective,
-        };
+        let model = certificate.model().unwrap_or_default().to_string();
+        let model = model.parse::<viewcert::Model>()?;
         match beside(self.given, input, model, self.one_frame)? {
             Beside::Cameras(cameras) => {
                 let hash = hex(&cameras.centres.sha256());

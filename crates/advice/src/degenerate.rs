@@ -2,7 +2,7 @@
 //!
 //! In: the pairs of images, the tracks and their components, and what is known of the geometry of
 //! pairs. Out: the places that a component hangs on ([`Narrow`]) and what is special there: pairs
-//! of images that stand in one place, hinges in one place or on one line. Verdicts are about
+//! of images that stand in one place, hinges in one place. Verdicts are about
 //! generic positions; those of photographs that were taken from one place are not. The angles are
 //! estimates of the database, and no verdict depends on them.
 
@@ -18,9 +18,6 @@ use viewcert::{Graph, Verdict};
 use viewcert_formats::NamedGraph;
 use viewcert_formats::colmap::{Estimate, LEAST_ANGLE};
 
-/// Three places less far from one line than so many degrees count as on it.
-const LINE: f64 = 2.0;
-
 /// Most places of each kind that are looked at, and most pairs of one.
 const MOST: usize = 20;
 
@@ -33,8 +30,6 @@ pub struct Narrow {
     pub between: Vec<Between>,
     /// Two images through which alone groups of images hang together.
     pub hinges: Vec<Hinge>,
-    /// Three of these hinges on one line, or nearly.
-    pub lines: Vec<Line>,
 }
 
 /// Few pairs that alone hold images together.
@@ -69,17 +64,6 @@ pub struct Hinge {
     /// How many images the groups have.
     pub sides: Vec<usize>,
     /// Whether they stand in one place, as far as is known.
-    pub special: bool,
-}
-
-/// Three hinges.
-#[derive(Clone, Debug, Serialize)]
-pub struct Line {
-    /// The three images.
-    pub images: [String; 3],
-    /// How far they are from one line, in degrees.
-    pub degrees: f64,
-    /// Whether that is nearly nothing.
     pub special: bool,
 }
 
@@ -145,13 +129,8 @@ pub fn narrow(
     let alone = hinges
         .iter()
         .filter(|hinges| hold_alone(&tracks.graph, graph.nodes(), hinges));
-    let hinges: Vec<&Hinges> = alone.take(MOST).collect();
-    for hinge in &hinges {
+    for hinge in alone.take(MOST) {
         found.hinges.push(look.hinge(hinge)?);
-    }
-    let pairs: Vec<[u32; 2]> = hinges.iter().map(|hinge| hinge.images).collect();
-    for [a, b, c] in triples(&pairs) {
-        found.lines.extend(look.line([a, b, c])?);
     }
     Ok(found)
 }
@@ -205,28 +184,6 @@ impl Look<'_> {
             sides: hinges.groups.iter().map(Vec::len).collect(),
         })
     }
-
-    /// How far three images are from one line, seen from one of them; nothing, if no two of the
-    /// directions between them are known.
-    fn line(&mut self, images: [u32; 3]) -> Result<Option<Line>> {
-        for k in 0..3 {
-            let [at, one, other] = [k, (k + 1) % 3, (k + 2) % 3].map(|k| images[k]);
-            let of = |look: &mut Self, to: u32| -> Result<Option<[f64; 3]>> {
-                let known = look.geometry.of((at.min(to), at.max(to)))?;
-                Ok(known.and_then(|known| known.towards(at)))
-            };
-            if let (Some(x), Some(y)) = (of(self, one)?, of(self, other)?) {
-                let cosine: f64 = x.iter().zip(&y).map(|(x, y)| x * y).sum();
-                let degrees = cosine.abs().min(1.0).acos().to_degrees();
-                return Ok(Some(Line {
-                    images: images.map(|image| self.names.of(image)),
-                    degrees,
-                    special: degrees < LINE,
-                }));
-            }
-        }
-        Ok(None)
-    }
 }
 
 /// Whether the images of a pair stand in one place, as far as is known.
@@ -277,19 +234,6 @@ fn hold_alone(tracks: &Graph, images: usize, hinges: &Hinges) -> bool {
         let first = std::mem::replace(of_point, if here == 0 { *of_point } else { here });
         here == 0 || first == 0 || first == here
     })
-}
-
-/// Three images of which each two are a pair.
-fn triples(pairs: &[[u32; 2]]) -> Vec<[u32; 3]> {
-    let mut found = Vec::new();
-    for (k, &[a, b]) in pairs.iter().enumerate() {
-        for &[a_too, c] in &pairs[k + 1..] {
-            if a == a_too && pairs.contains(&[b.min(c), b.max(c)]) {
-                found.push([a, b, c]);
-            }
-        }
-    }
-    found
 }
 
 #[cfg(test)]

@@ -58,9 +58,6 @@ pub fn read_table(text: &str) -> Result<Vec<FloatClaim>, TableError> {
 
 fn claim(row: &Row) -> Result<FloatClaim, BadRow> {
     let bad = |why: &str| Err(BadRow(why.to_owned()));
-    if row.record.is_some() {
-        return bad("a record of the program claims nothing of floating point here; see --claims");
-    }
     let model = model(row)?;
     let size = |column| {
         let found = row.parsed(column, "a decimal or a fraction that is not negative")?;
@@ -101,7 +98,7 @@ fn claim(row: &Row) -> Result<FloatClaim, BadRow> {
     if norm.as_ref().is_some_and(|norm| norm.numerator().is_zero()) {
         return bad("norm: take a decimal or a fraction above 0");
     }
-    if norm.is_some() && model == Model::Calibrated {
+    if norm.is_some() && model.in_space() {
         return bad(
             "norm: the matrix is made of directions, which have norm 1; leave the norm out",
         );
@@ -220,7 +217,7 @@ pub fn ruled(
 fn rule(claim: &FloatClaim, here: &Here, sigma: Option<&Enclosure>) -> Ruling {
     let (mut wrong, mut open) = (Vec::new(), None);
     // Where the equations are linear, a full rank leaves no other cameras at all.
-    let is_only = here.model != Model::Projective || here.is_planar;
+    let is_only = here.model.is_linear() || here.is_planar;
     match (claim.verdict, here.is_determined()) {
         (Some(Claimed::Solvable | Claimed::FiniteSolvable), false) => wrong.push(format!(
             "the cameras are not determined: the rank is {} of {}",

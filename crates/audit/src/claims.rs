@@ -1,21 +1,17 @@
 //! Somebody else's results: a table of claims, each decided again exactly.
 //!
 //! In: a row of a [`table`](super::table), which names a graph and claims a verdict, a number of components, a rank, or
-//! several of these; or what `verify --json` wrote. Out: whether that is so. docs/audit.md has the columns.
+//! several of these. Out: whether that is so. docs/audit.md has the columns.
 
 use super::table::{BadRow, Columns, Row, TableError};
-use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 use viewcert::Model;
 use viewcert::certificate::hex;
-use viewcert::decide::{
-    CountSolutions, Options, Question, Value, Verdict, VerdictError, decide, rank_in_plane,
-};
-use viewcert::graph::{Graph, KnownParts, graph6};
+use viewcert::decide::{CountSolutions, Options, Question, Value, Verdict, VerdictError, decide};
+use viewcert::graph::graph6;
 use viewcert::solutions::Number;
-use viewcert::watch::{Stopped, Watch};
 use viewcert_formats::read::{Graphs, graphs};
 use viewcert_formats::{NamedGraph, ReadOptions, read_graphs};
 
@@ -28,12 +24,6 @@ const SILENT: &str = "seconds seconds_ density_ strength degrees girth automorph
 
 /// Options that say how a graph is decided, and not which question.
 const DECIDED: &str = "method rational solutions one-frame";
-
-/// Members of a record that say how its answer was found, or what follows from it: no claims of their own.
-const BESIDE: &str = "kind format program notes database tracks condition conditions strength error_log2 because \
-                      rank_strength components_strength mode seed prime seconds joints joints_complete weak \
-                      suggestions explain export proof graph read model verdict solutions rank rank_required \
-                      components planar";
 
 /// Reads a table. Columns named in `ignored` are left out.
 ///
@@ -70,7 +60,7 @@ const WORDS: [(&str, Option<Claimed>); 7] = [
 /// The model of a row.
 pub(crate) fn model(row: &Row) -> Result<Model, BadRow> {
     let model = row.parsed("model", "one of projective, calibrated and affine")?;
-    Ok(model.unwrap_or(Model::Projective))
+    Ok(model.unwrap_or_default())
 }
 
 /// What a row claims of the verdict, in letters of either case, with blanks or underscores for the hyphens.
@@ -98,11 +88,6 @@ pub struct Claim {
     /// Of `components` and all columns that begin so.
     components: Vec<usize>,
     solutions: Option<Bounds>,
-    /// What a record says of each component, and of centres in one plane.
-    parts: Option<Vec<String>>,
-    planar: Option<Json>,
-    /// A member of a record that claims what is not decided again.
-    other: Option<String>,
 }
 
 /// How many solutions there are, at least and at most.
@@ -132,17 +117,15 @@ impl Bounds {
 /// What it lacks.
 pub fn claim(row: &Row) -> Result<Claim, BadRow> {
     let bad = |why: &str| BadRow(why.to_owned());
-    let mut claim = Claim::default();
-    claim.row = match &row.record {
-        Some(record) => claim.recorded(record)?,
-        None => row.clone(),
+    let mut claim = Claim {
+        row: row.clone(),
+        ..Claim::default()
     };
-    if let Some(given) = claim.row.cell("options") {
+    if let Some(given) = row.cell("options") {
         let given = serde_json::from_str(given)
             .map_err(|_| BadRow(format!("options: {given} is no JSON object of strings")))?;
         claim.read = options(given)?;
     }
-    let row = &claim.row;
     if let Some(error) = row.cell("error") {
         return Err(BadRow(format!(
             "nothing is claimed: the graph had no answer: {error}"
@@ -184,116 +167,15 @@ fn options(mut given: BTreeMap<String, String>) -> Result<ReadOptions, BadRow> {
                 "it rests on what --given {} says, without which it is another claim",
                 given[&name]
             ),
-            _ => format!("unknown option {name:?} in `read.options` or the column `options`"),
+            _ => format!("unknown option {name:?} in the column `options`"),
         })
     })
 }
 
-/// What stands in a JSON value, without quotes.
-fn plain(value: &Json) -> String {
-    value
-        .as_str()
-        .map_or_else(|| value.to_string(), str::to_owned)
-}
-
-/// A component as it is compared.
-fn part(nodes: impl ToString, edges: impl ToString, labels: Option<Vec<String>>) -> String {
-    let mut labels = labels.unwrap_or_default();
-    labels.sort_unstable();
-    json!([nodes.to_string(), edges.to_string(), labels]).to_string()
-}
-
 impl Claim {
-    /// Takes what `verify --json` wrote about a graph for a row.
-    fn recorded(&mut self, record: &Json) -> Result<Row, BadRow> {
-        let bad = |why: &str| {
-            BadRow(format!(
-                "not a record as `verify --json` writes it of a graph: {why}"
-            ))
-        };
-        if let Some(error) = record.get("error") {
-            return Err(bad(&format!("the graph had no answer: {error}")));
-        }
-        for (member, wanted) in [("kind", json!("report")), ("format", json!(1))] {
-            if let Some(other) = record.get(member).filter(|found| **found != wanted) {
-                return Err(bad(&format!("its {member} is {other}, not {wanted}")));
-            }
-        }
-        for (member, what) in [
-            ("displacements", "rests on known displacements"),
-            ("own_frame", "rests on known displacements"),
-            ("parts", "is about a graph with known parts"),
-        ] {
-            if record.get(member).is_some() {
-                let why = format!("it {what}, without which it is another claim");
-                return Err(BadRow(why));
-            }
-        }
-        let at = |pointer: &str| {
-            let found = record.pointer(pointer);
-            found.ok_or_else(|| bad(&format!("there is no {pointer}")))
-        };
-        let mut row = Row::default();
-        for pointer in [
-            "/graph/name",
-            "/graph/nodes",
-            "/graph/edges",
-            "/graph/sha256",
-            "/model",
-            "/verdict",
-            "/rank",
-            "/rank_required",
-        ] {
-            let column = pointer.rsplit('/').next().unwrap_or_default();
-            let column = if column == "name" { "graph" } else { column };
-            row.cells.insert(column.to_owned(), plain(at(pointer)?));
-        }
-        if let Some(known) = record.get("solutions").filter(|known| !known.is_null()) {
-            let [least, most] =
-                ["at_least", "at_most"].map(|of| known.get(of).map_or_else(String::new, plain));
-            row.cells.insert(
-                "solutions".to_owned(),
-                format!("{least}-{}", most.replace("null", "")),
-            );
-        }
-        let mut parts = Vec::new();
-        for found in at("/components")?.as_array().into_iter().flatten() {
-            let labels = found.get("labels").and_then(Json::as_array);
-            let labels = labels.map(|labels| labels.iter().map(plain).collect());
-            parts.push(part(&found["nodes"], &found["edges"], labels));
-            if found.get("solutions").is_some() {
-                self.other = Some("components[].solutions".to_owned());
-            }
-        }
-        row.cells
-            .insert("components".to_owned(), parts.len().to_string());
-        self.parts = Some(parts);
-        let given = record
-            .pointer("/read/options")
-            .and_then(Json::as_object)
-            .into_iter()
-            .flatten();
-        let mut given: BTreeMap<_, _> = given
-            .map(|(name, value)| (name.clone(), plain(value)))
-            .collect();
-        // What is so at given cameras is another claim, beside the one on the graph.
-        if record.get("at_cameras").is_some() {
-            given.remove("given");
-        }
-        self.read = options(given)?;
-        self.planar = record.get("planar").cloned();
-        let mut members = record
-            .as_object()
-            .into_iter()
-            .flat_map(|members| members.keys());
-        let other = members.find(|name| BESIDE.split_whitespace().all(|beside| beside != *name));
-        self.other = self.other.take().or(other.cloned());
-        Ok(row)
-    }
-
     /// The model it is about.
     pub fn model(&self) -> Model {
-        model(&self.row).unwrap_or(Model::Projective)
+        model(&self.row).unwrap_or_default()
     }
 
     /// How the graph is called, if that may be a name of the caller's, and whether it can be nothing else.
@@ -430,7 +312,7 @@ pub fn ruled(
     options: &Options,
 ) -> Result<(Ruling, Verdict), VerdictError> {
     let options = options.clone().model(claim.model());
-    let (watch, mut verdict) = (options.watch.clone(), decide(&input.graph, &options)?);
+    let mut verdict = decide(&input.graph, &options)?;
     if let Some(why) = claim.another_graph(input, &verdict) {
         let why = format!("another graph is meant: {why}");
         return Ok((Ruling::NotDecidable(why), verdict));
@@ -439,24 +321,7 @@ pub fn ruled(
         let all = Question::with_solutions(CountSolutions::Full);
         verdict = decide(&input.graph, &options.question(all))?;
     }
-    let in_a_plane = claim
-        .planar
-        .is_some()
-        .then(|| planar(&input.graph, claim.model(), &watch));
-    let in_a_plane = in_a_plane.transpose()?;
-    Ok((claim.rule(input, &verdict, in_a_plane), verdict))
-}
-
-/// What holds if all centres lie in one plane, by counting (docs/theory, Corollary 13.4 and Theorem 13.23).
-fn planar(graph: &Graph, model: Model, watch: &Watch) -> Result<Json, Stopped> {
-    let rank = rank_in_plane(graph, model, &KnownParts::default(), watch)?;
-    let required = model.required(graph.nodes());
-    let verdict = if rank < required {
-        "not-finite-solvable"
-    } else {
-        "solvable"
-    };
-    Ok(json!({ "verdict": verdict, "rank": rank, "rank_required": required }))
+    Ok((claim.rule(&verdict), verdict))
 }
 
 impl Claim {
@@ -515,39 +380,10 @@ impl Claim {
         (known.at_least >= *least && is_inside).then_some(true)
     }
 
-    /// Whether the components are as a record says, with their members if it lists them.
-    fn has_parts(&self, input: &NamedGraph, verdict: &Verdict) -> bool {
-        let Some(claimed) = &self.parts else {
-            return true;
-        };
-        let cameras = input.cameras.unwrap_or(u32::MAX);
-        let found = |is_listed: bool| {
-            let parts = verdict.components.iter().map(|found| {
-                let nodes = found.nodes().into_iter().filter(|&v| v < cameras);
-                let labels =
-                    is_listed.then(|| nodes.map(|v| input.labels.label(v).into_owned()).collect());
-                part(found.node_count(), found.edge_count(), labels)
-            });
-            let mut parts: Vec<String> = parts.collect();
-            parts.sort_unstable();
-            parts
-        };
-        let mut claimed = claimed.clone();
-        claimed.sort_unstable();
-        [false, true]
-            .into_iter()
-            .any(|is_listed| claimed == found(is_listed))
-    }
-
     /// Holds it against the exact verdict, which is that of its model.
-    fn rule(&self, input: &NamedGraph, verdict: &Verdict, in_a_plane: Option<Json>) -> Ruling {
+    fn rule(&self, verdict: &Verdict) -> Ruling {
         let (mut wrong, mut open) = (Vec::new(), None);
         let (found, known) = (verdict.value.name(), verdict.solutions.as_ref());
-        if let Some(other) = &self.other {
-            open = Some(format!(
-                "the record has the member `{other}`, an unknown member here, which is not decided again"
-            ));
-        }
         let count = known.map_or_else(
             || "infinitely many solutions".to_owned(),
             ToString::to_string,
@@ -591,17 +427,6 @@ impl Claim {
             if let Some(claimed) = claimed.filter(|&claimed| claimed != found) {
                 wrong.push(format!("claimed {what} {claimed}, is {found}"));
             }
-        }
-        if !self.has_parts(input, verdict) {
-            wrong.push("the components have other sizes or members".to_owned());
-        }
-        if self.planar != in_a_plane {
-            let is = in_a_plane.unwrap_or_default();
-            wrong.push(format!(
-                "in a plane it is {}, rank {}",
-                plain(&is["verdict"]),
-                is["rank"]
-            ));
         }
         Ruling::new(&wrong, open)
     }

@@ -89,7 +89,7 @@ impl Matrix {
     /// Its entries; nothing if it takes cameras and there are centres alone.
     fn entries(self, graph: &Graph, centres: &Centres, norm: &Rational) -> Option<Surds> {
         let place = envelope_order(graph);
-        if self.model() == Model::Calibrated {
+        if self.model().in_space() {
             let by_length = self == Self::BearingByLength;
             return Some(bearing(graph, centres.places(), &place, by_length));
         }

@@ -1,13 +1,8 @@
-//! Tables of what somebody claims: values between commas, semicolons or tabs below a head, a JSON list of objects, or
-//! JSON objects one after another.
+//! Tables of what somebody claims: values between commas, semicolons or tabs below a head.
 //!
 //! In: a text. Out: its rows with their lines; a table that may not say what its author means is refused whole.
 
-use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
-use serde_json::value::RawValue;
-use serde_json::{Map, Value as Json};
 use std::collections::BTreeMap;
-use std::fmt;
 use std::str::FromStr;
 use viewcert::wording::counted;
 use viewcert_formats::csv;
@@ -19,8 +14,6 @@ pub struct Row {
     pub line: usize,
     /// The cells that are not blank by the names of their columns, in lower case.
     pub cells: BTreeMap<String, String>,
-    /// An object that the program itself wrote, whose members are no cells.
-    pub record: Option<Json>,
 }
 
 /// Why a table cannot be read.
@@ -85,10 +78,15 @@ impl<'a> Columns<'a> {
     /// Reads a table.
     pub(crate) fn read(&self, text: &str) -> Result<Vec<Row>, TableError> {
         let text = text.trim_start_matches('\u{feff}');
-        let rows = match text.trim_start().starts_with(['[', '{']) {
-            true => self.objects(text),
-            false => self.lines(text),
-        };
+        if text.trim_start().starts_with(['[', '{']) {
+            let problem = "this is JSON, and a table of claims is CSV; in Python: \
+                           pandas.read_json('FILE').to_csv('claims.csv', index=False)";
+            return Err(TableError {
+                line: 1,
+                problem: problem.to_owned(),
+            });
+        }
+        let rows = self.lines(text);
         let none = (1, "the table has no rows, and so claims nothing".to_owned());
         let rows = rows.and_then(|rows| if rows.is_empty() { Err(none) } else { Ok(rows) });
         rows.map_err(|(line, problem)| TableError { line, problem })
@@ -120,76 +118,10 @@ impl<'a> Columns<'a> {
             let cells = head.iter().zip(cells.iter().map(str::trim)).zip(&kept);
             let cells = cells.filter(|((_, cell), is_kept)| **is_kept && !cell.is_empty());
             let cells = cells.map(|((column, cell), _)| (column.clone(), unguarded(cell)));
-            let (cells, record) = (cells.collect(), None);
-            Ok(Row {
-                line,
-                cells,
-                record,
-            })
+            let cells = cells.collect();
+            Ok(Row { line, cells })
         };
         lines.map(row).collect()
-    }
-
-    fn objects(&self, text: &str) -> Result<Vec<Row>, Problem> {
-        let mut stream = serde_json::Deserializer::from_str(text).into_iter();
-        let found: Result<Vec<&RawValue>, _> = match text.trim_start().starts_with('[') {
-            true => serde_json::from_str(text),
-            false => stream.by_ref().collect(),
-        };
-        let none = |error: serde_json::Error| {
-            format!("not a JSON list of objects, nor one object after another: {error}")
-        };
-        let found = found.map_err(|error| (error.line().max(1), none(error)))?;
-        let row = |raw: &&RawValue| {
-            let before = raw.get().as_ptr() as usize - text.as_ptr() as usize;
-            let line = 1 + text[..before].matches('\n').count();
-            let members = serde_json::from_str(raw.get()).map_err(|error| (line, none(error)))?;
-            self.object(members, line)
-                .map_err(|problem| (line, problem))
-        };
-        found.iter().map(row).collect()
-    }
-
-    fn object(&self, Members(members): Members, line: usize) -> Result<Row, String> {
-        let own = ["program", "kind"];
-        let is_own = |(name, value): &(String, Json)| {
-            own.contains(&&**name) || name == "graph" && value.is_object()
-        };
-        let is_record = members.iter().any(is_own);
-        let mut seen = Map::new();
-        for (name, value) in members {
-            let name = if is_record { name } else { name.to_lowercase() };
-            if !is_record && (value.is_array() || value.is_object()) && self.keeps(&name)? {
-                return Err(format!(
-                    "{name:?} is a list or an object; a row takes strings and numbers"
-                ));
-            }
-            if is_record || self.keeps(&name)? {
-                if seen.contains_key(&name) {
-                    return Err(format!("member {name:?} stands there twice"));
-                }
-                seen.insert(name, value);
-            }
-        }
-        if is_record {
-            let (cells, record) = (BTreeMap::new(), Some(Json::Object(seen)));
-            return Ok(Row {
-                line,
-                cells,
-                record,
-            });
-        }
-        let cells = seen.into_iter().map(|(name, value)| match value {
-            Json::Null => (name, String::new()),
-            Json::String(text) => (name, text.trim().to_owned()),
-            other => (name, other.to_string()),
-        });
-        let (cells, record) = (cells.filter(|(_, cell)| !cell.is_empty()).collect(), None);
-        Ok(Row {
-            line,
-            cells,
-            record,
-        })
     }
 }
 
@@ -222,31 +154,6 @@ impl Row {
     }
 }
 
-/// The members of an object as they stand there, one after another.
-struct Members(Vec<(String, Json)>);
-
-impl<'de> Deserialize<'de> for Members {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Object;
-        impl<'de> Visitor<'de> for Object {
-            type Value = Members;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("an object")
-            }
-
-            fn visit_map<M: MapAccess<'de>>(self, mut map: M) -> Result<Members, M::Error> {
-                let mut members = Vec::new();
-                while let Some(member) = map.next_entry()? {
-                    members.push(member);
-                }
-                Ok(Members(members))
-            }
-        }
-        deserializer.deserialize_map(Object)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -276,20 +183,6 @@ mod tests {
         assert_eq!((rows[0].line, rows[1].line), (3, 4));
         assert_eq!([&rows[0].cells["rank"], &rows[1].cells["rank"]], ["1", "2"]);
         assert_eq!(rows[1].cells["name"], "=b");
-        let json = "[\n{\"Graph\": \"C~{\\\"\", \"components\": 1,\n \"rank\": null},\n{}]";
-        let rows = COLUMNS.read(json).unwrap();
-        assert_eq!(rows[0].cells["graph"], "C~{\"");
-        assert_eq!(rows[0].cells["components"], "1");
-        assert_eq!(rows[0].cells.get("rank"), None);
-        assert_eq!((rows[0].line, rows[1].line), (2, 4));
-        let lines = "{\"graph\": \"C~\"}\n\n{\"graph\": \"Cl\"} {\"rank\": 3}\n";
-        let found: Vec<usize> = COLUMNS
-            .read(lines)
-            .unwrap()
-            .iter()
-            .map(|row| row.line)
-            .collect();
-        assert_eq!(found, [1, 3, 3]);
         let ignored = ["Note".to_owned()];
         let columns = Columns {
             ignored: &ignored,
@@ -308,21 +201,10 @@ mod tests {
             ("name,rank\n\r\n1,\"2\r\n", 3, "quoted"),
             ("\n", 1, "empty"),
             ("name,rank\n", 1, "no rows"),
-            ("[ ]\n", 1, "no rows"),
             ("name,component\na,1\n", 1, "unknown column \"component\""),
-            ("[{},\n{\"vedict\": 1}]", 2, "unknown column \"vedict\""),
             ("name,Name\na,b\n", 1, "twice"),
-            ("{\"rank\": 1, \"RANK\": 2}", 1, "twice"),
-            ("{\"rank\": null, \"rank\": 2}", 1, "twice"),
-            ("{\"program\": 1, \"program\": 2}", 1, "twice"),
-            (
-                "{\"graph\": \"C~\"}\n{\"rank\": [1]}",
-                2,
-                "a list or an object",
-            ),
-            ("[1, 2]", 1, "not a JSON list of objects"),
-            ("[{}", 1, "not a JSON list of objects"),
-            ("{\"rank\": 1} x", 1, "not a JSON list of objects"),
+            ("[{}", 1, "this is JSON"),
+            ("{\"rank\": 1}\n", 1, "pandas.read_json"),
         ] {
             let error = COLUMNS.read(text).unwrap_err();
             assert_eq!(error.line, line, "{text:?}: {error}");

@@ -6,7 +6,7 @@
 
 use super::label::greatest;
 use rayon::prelude::*;
-use viewcert::geometry::model::Model;
+use viewcert::geometry::model::full_rank;
 use viewcert::graph::Graph;
 use viewcert::watch::{Step, Stopped, Watch};
 
@@ -21,7 +21,7 @@ pub const MOST_NODES: usize = 12;
 /// assert_eq!(viewcert_catalog::least_edges(9), 12);
 /// ```
 pub fn least_edges(nodes: usize) -> usize {
-    Model::Projective.required(nodes).div_ceil(7)
+    full_rank(nodes).div_ceil(7)
 }
 
 /// Why there are no candidates.

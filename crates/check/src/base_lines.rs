@@ -6,8 +6,8 @@
 mod frames;
 mod matrix;
 
+use crate::document::Document;
 use crate::document::base_lines::{BaseLinesClaim, Upper};
-use crate::document::{Document, Model};
 use crate::forest::{root, unite};
 use crate::graph::Graph;
 use crate::rejection::{Checked, Within, ensure};
@@ -93,7 +93,7 @@ pub(crate) fn check(
     };
     let setting = structure.setting;
     ensure!(
-        setting.model == Model::Calibrated,
+        setting.model.in_space(),
         "base lines in the {} model",
         setting.model
     );

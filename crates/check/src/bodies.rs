@@ -2,7 +2,7 @@
 //! 10.3 and 13.9; 4.14 and 13.16 for those from the start, Proposition 4.15 for those by rank).
 
 use crate::core::{Core, Joined, sorted};
-use crate::document::{Body, Merge, Model, Piece, Seed, Source};
+use crate::document::{Body, Merge, Piece, Seed, Source};
 use crate::elimination::SPARSE;
 use crate::graph::Graph;
 use crate::lower::check_rigid;
@@ -90,7 +90,7 @@ impl Builder<'_> {
     fn by_rank(&self, members: &Piece) -> Checked<Built> {
         let Setting { model, meter, .. } = self.setting;
         ensure!(
-            *model == Model::Projective,
+            !model.is_linear(),
             "bodies by rank are of the projective model only"
         );
         let mut lists = Vec::new();
@@ -212,14 +212,14 @@ impl Builder<'_> {
             (2, 3) => Ok(&[&[0, 1], &[0, 2], &[1, 2]]),
             (3, 4) => {
                 ensure!(
-                    self.setting.model == Model::Calibrated,
+                    self.setting.model.in_space(),
                     "a cycle of four is a body in the calibrated model only"
                 );
                 Ok(&[&[0, 1], &[1, 2], &[2, 3], &[0, 3]])
             }
             (4, 6) | (5, 5..=7) => {
                 ensure!(
-                    self.setting.model == Model::Projective,
+                    !self.setting.model.is_linear(),
                     "so many bodies are merged in the projective model only"
                 );
                 Ok(match (step.with.len(), step.at.len()) {

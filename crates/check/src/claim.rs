@@ -229,7 +229,7 @@ fn decide(
     if let [piece] = pieces
         && (piece.nodes as i64, piece.lower) == (nodes, required)
     {
-        let unique = piece.is_unique || model != Model::Projective;
+        let unique = piece.is_unique || model.is_linear();
         let verdict = if unique {
             Verdict::Solvable
         } else {

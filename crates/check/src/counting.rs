@@ -37,7 +37,7 @@ fn check_block(block: &Block, part: &Part, structure: &Structure) -> Checked<i64
     let mut bound = structure.block_rank(part);
     ensure!(block.hubs.len() <= 1, "more than one hub");
     ensure!(
-        block.hubs.is_empty() || model == Model::Projective,
+        block.hubs.is_empty() || !model.is_linear(),
         "a hub in the {model} model"
     );
     for hub in &block.hubs {

@@ -47,10 +47,7 @@ pub(crate) fn check_groups(
     parts: &[Vec<u32>],
     vectors: Option<&[Vec<[Big<i128>; 3]>]>,
 ) -> Checked<Displacements> {
-    ensure!(
-        model == Model::Calibrated,
-        "known displacements in the {model} model"
-    );
+    ensure!(model.in_space(), "known displacements in the {model} model");
     ensure!(parts.is_empty(), "there are known parts as well");
     check_form(groups, nodes)?;
     Ok(Displacements {

@@ -85,9 +85,10 @@ impl Value for Version {
 }
 
 /// The question: unknown or known intrinsic parameters, or affine cameras.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Model {
     /// Finite or unique solvability from fundamental matrices.
+    #[default]
     Projective,
     /// Solvability from essential matrices: parallel rigidity in space.
     Calibrated,
@@ -95,26 +96,35 @@ pub enum Model {
     Affine,
 }
 
+impl Model {
+    const ALL: [Self; 3] = [Self::Projective, Self::Calibrated, Self::Affine];
+
+    /// That of a name, if it is one.
+    pub(crate) fn named(name: &str) -> Option<Self> {
+        Self::ALL
+            .into_iter()
+            .find(|model| model.to_string() == name)
+    }
+}
+
 impl fmt::Display for Model {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Model::Projective => "projective",
-            Model::Calibrated => "calibrated",
-            Model::Affine => "affine",
+            Self::Projective => "projective",
+            Self::Calibrated => "calibrated",
+            Self::Affine => "affine",
         })
     }
 }
 
 impl Value for Model {
     fn read<'de, D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        match String::read(from)?.as_str() {
-            "projective" => Ok(Model::Projective),
-            "calibrated" => Ok(Model::Calibrated),
-            "affine" => Ok(Model::Affine),
-            other => Err(D::Error::custom(format!(
-                "`{other}` is not a model: `projective`, `calibrated` or `affine`"
-            ))),
-        }
+        let name = String::read(from)?;
+        Self::named(&name).ok_or_else(|| {
+            D::Error::custom(format!(
+                "`{name}` is not a model: `projective`, `calibrated` or `affine`"
+            ))
+        })
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::algebra::Field;
 use crate::cameras::{self, Stream};
 use crate::core::Core;
-use crate::document::{Draws, Model};
+use crate::document::Draws;
 use crate::elimination::Echelon;
 use crate::matrices::{camera_at, jacobian};
 use crate::rejection::{Checked, ensure};
@@ -23,7 +23,7 @@ pub(crate) struct Drawn {
 /// Verifies `draws` (theory, Theorem 7.2).
 pub(crate) fn check_draws(evidence: &Draws, setting: &Setting, core: &Core) -> Checked<Drawn> {
     ensure!(
-        setting.model == Model::Projective,
+        !setting.model.is_linear(),
         "not evidence in the {} model",
         setting.model
     );

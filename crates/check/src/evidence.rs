@@ -4,7 +4,7 @@
 use crate::core::Core;
 use crate::counting::check_counting;
 use crate::division::{Sizes, divide};
-use crate::document::{self, Evidence, Members, Model};
+use crate::document::{self, Evidence, Members};
 use crate::draws::{Drawn, check_draws};
 use crate::kernel::{Place, check_kernel};
 use crate::lower::{check_lower, check_rigid};
@@ -184,7 +184,7 @@ impl Shown {
             }
             Evidence::OneSolution(_) => {
                 ensure!(
-                    structure.setting.model == Model::Projective && *piece == structure.everything,
+                    !structure.setting.model.is_linear() && *piece == structure.everything,
                     "not a piece that is the whole graph, in the projective model"
                 );
                 self.by_solutions = true;
@@ -364,7 +364,7 @@ fn check_split(
     part: &Part,
 ) -> Checked<Vec<Piece>> {
     ensure!(
-        structure.setting.model == Model::Projective
+        !structure.setting.model.is_linear()
             || structure.is_scaled(part)
             || structure.setting.vectors.is_some(),
         "a split class in the {} model",

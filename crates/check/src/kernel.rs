@@ -4,7 +4,7 @@
 use crate::algebra::{Field, Ring};
 use crate::cameras::{self, Stream};
 use crate::core::Core;
-use crate::document::{Kernel, Model};
+use crate::document::Kernel;
 use crate::draws::{Drawn, own_centres};
 use crate::elimination::Echelon;
 use crate::matrices::{camera_at, map_motion, scale_motion};
@@ -37,7 +37,7 @@ pub(crate) fn check_kernel(
     drawn: Option<&Drawn>,
 ) -> Checked<Place> {
     core.charge_draw(setting)?;
-    if setting.model == Model::Affine {
+    if setting.model.in_plane() {
         return check_plane_kernel(kernel, setting, core, (owner, classes));
     }
     let Centres {
@@ -45,10 +45,7 @@ pub(crate) fn check_kernel(
         centres,
         place,
     } = centres(kernel, setting, core, drawn)?;
-    let columns = match setting.model {
-        Model::Projective => 4,
-        _ => 1,
-    };
+    let columns = if setting.model.is_linear() { 1 } else { 4 };
     let vector = residues(kernel, 3 * columns * core.nodes, &field)?;
     let motion = |edge| {
         let motion = edge_motion(&field, setting, core, &centres, &vector, edge)?;

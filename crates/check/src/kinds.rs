@@ -132,7 +132,7 @@ impl AnyVerified {
         match self {
             Self::Generic(verified) => verified.model,
             Self::AtCameras(verified) => verified.model,
-            Self::Intrinsics(_) => Model::Projective,
+            Self::Intrinsics(_) => Model::default(),
             Self::Contradictions(_) => Model::Calibrated,
         }
     }

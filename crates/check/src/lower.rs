@@ -55,9 +55,9 @@ pub(crate) fn check_rigid(evidence: &[Evidence], setting: &Setting, core: &Core)
 /// Each matrix belongs to a question.
 fn check_model(evidence: &Evidence, model: Model) -> Checked<()> {
     let fits = match evidence {
-        Evidence::Minor(_) | Evidence::IntegerMinor(_) => model == Model::Projective,
-        Evidence::PlaneFlow(_) => model != Model::Affine,
-        Evidence::PlaneMinor(_) => model == Model::Affine,
+        Evidence::Minor(_) | Evidence::IntegerMinor(_) => !model.is_linear(),
+        Evidence::PlaneFlow(_) => !model.in_plane(),
+        Evidence::PlaneMinor(_) => model.in_plane(),
         _ => true,
     };
     ensure!(fits, "not evidence in the {model} model");

@@ -5,9 +5,9 @@ use crate::algebra::{Field, Ring};
 use crate::base_lines::compare_ranks;
 use crate::cameras::Stream;
 use crate::displacements::digest;
+use crate::document::Document;
 use crate::document::base_lines::Lower;
 use crate::document::own_frame::{OwnFrame as Stated, OwnFrameClaim, Upper};
-use crate::document::{Document, Model};
 use crate::elimination::{Echelon, Factors, SPARSE};
 use crate::forest::{root, unite};
 use crate::graph::{Graph, hex};
@@ -107,10 +107,7 @@ impl<'a> Supposed<'a> {
             return Ok(None);
         };
         let model = document.model;
-        ensure!(
-            model == Model::Calibrated,
-            "a frame of its own in the {model} model"
-        );
+        ensure!(model.in_space(), "a frame of its own in the {model} model");
         ensure!(
             document.parts.0.is_none() && document.vectors.0.is_none(),
             "known parts or given vectors stand beside a frame of its own"

@@ -107,7 +107,7 @@ impl<'a> Flows<'a> {
             evidence.flows
         );
         ensure!(
-            setting.model == Model::Projective || evidence.flows == 0,
+            !setting.model.is_linear() || evidence.flows == 0,
             "flows in the calibrated model"
         );
         setting.meter.allow_flows(evidence.flows)?;

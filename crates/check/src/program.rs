@@ -226,12 +226,7 @@ pub fn verdict(text: &str) -> Result<String, String> {
 /// # Errors
 /// Which there are.
 pub fn model(text: &str) -> Result<Model, &'static str> {
-    match text {
-        "projective" => Ok(Model::Projective),
-        "calibrated" => Ok(Model::Calibrated),
-        "affine" => Ok(Model::Affine),
-        _ => Err("it is projective, calibrated or affine"),
-    }
+    Model::named(text).ok_or("it is projective, calibrated or affine")
 }
 
 /// A hash, in lower-case digits.

@@ -225,8 +225,8 @@ impl Problem {
             }
             Self::Unreadable(_) => "check its path and permissions",
             Self::NoPoints { advice, .. } => advice,
-            Self::Compressed(_) => "copy the file again, and test it (`gzip -t`, `bzip2 -t`)",
-            Self::Inflated(_) => "if you trust it, unpack it first (`gunzip`, `bunzip2`)",
+            Self::Compressed(_) => "copy the file again, and test it (`gzip -t`)",
+            Self::Inflated(_) => "if you trust it, unpack it first (`gunzip`)",
             Self::NoNodes => "give at least one pair of cameras",
             Self::TooManyNodes | Self::TooManyPairs => "split it into its connected components",
             Self::TooManyIsolated { .. } => "leave out what has no pairs",

@@ -1,10 +1,9 @@
-//! Compressed files: gzip and bzip2, unpacked within limits, so that a small file does not fill the machine.
+//! Files that gzip has compressed, unpacked within limits, so that a small file does not fill the machine.
 
 use std::cell::Cell;
 use std::io::{Error, ErrorKind, Read};
 use std::rc::Rc;
 
-use bzip2::read::MultiBzDecoder;
 use flate2::read::MultiGzDecoder;
 
 /// More than that is not inflated from one file.
@@ -14,31 +13,10 @@ const ALWAYS: u64 = 256 << 20;
 /// Beyond [`ALWAYS`], at most this times its size: edge lists are 3 to 20 times as long as their
 /// gzip files.
 const RATIO: u64 = 200;
-/// How a file is compressed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Compression {
-    Gzip,
-    Bzip2,
-}
 
-impl Compression {
-    /// That of a file with these first bytes, if it is compressed.
-    pub(super) fn of(head: &[u8]) -> Option<Self> {
-        match head {
-            [0x1f, 0x8b, ..] => Some(Self::Gzip),
-            // The first block, or the end of a file without any.
-            [b'B', b'Z', b'h', b'1'..=b'9', b'1', b'A', b'Y', ..]
-            | [b'B', b'Z', b'h', b'1'..=b'9', 0x17, b'r', b'E', ..] => Some(Self::Bzip2),
-            _ => None,
-        }
-    }
-
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::Gzip => "gzip",
-            Self::Bzip2 => "bzip2",
-        }
-    }
+/// Whether a file with these first bytes is one of gzip.
+pub(super) fn is_gzip(head: &[u8]) -> bool {
+    head.starts_with(b"\x1f\x8b")
 }
 
 /// A compressed file that is too large, or suspiciously small.
@@ -108,23 +86,20 @@ impl<R: Read> Read for Counter<R> {
 /// The unpacked bytes of a file of one or more members. Its errors are [`Inflated`] and
 /// [`Damaged`], or those of the file.
 pub(super) struct Inflater {
-    input: Box<dyn Read>,
+    input: MultiGzDecoder<Counter<Box<dyn Read>>>,
     progress: Rc<Progress>,
     inflated: u64,
 }
 
 impl Inflater {
-    pub(super) fn new(input: impl Read + 'static, compression: Compression) -> Self {
+    pub(super) fn new(input: impl Read + 'static) -> Self {
         let progress = Rc::new(Progress::default());
         let input = Counter {
-            input,
+            input: Box::new(input) as Box<dyn Read>,
             progress: Rc::clone(&progress),
         };
         Self {
-            input: match compression {
-                Compression::Gzip => Box::new(MultiGzDecoder::new(input)),
-                Compression::Bzip2 => Box::new(MultiBzDecoder::new(input)),
-            },
+            input: MultiGzDecoder::new(input),
             progress,
             inflated: 0,
         }
@@ -167,45 +142,36 @@ mod tests {
         encoder.finish().unwrap()
     }
 
-    /// `1 2\n`, and `2 3\n`; what the program `bzip2` makes of them.
-    fn members() -> [(Compression, [Vec<u8>; 2]); 2] {
-        let gzip = [deflated(&b"1 2\n"[..]), deflated(&b"2 3\n"[..])];
-        let bzip2 = [
-            include_bytes!("samples/1.bz2").to_vec(),
-            include_bytes!("samples/2.bz2").to_vec(),
-        ];
-        [(Compression::Gzip, gzip), (Compression::Bzip2, bzip2)]
+    fn members() -> [Vec<u8>; 2] {
+        [deflated(&b"1 2\n"[..]), deflated(&b"2 3\n"[..])]
     }
 
-    fn inflated(bytes: Vec<u8>, compression: Compression) -> std::io::Result<String> {
+    fn inflated(bytes: Vec<u8>) -> std::io::Result<String> {
         let mut text = String::new();
-        Inflater::new(Cursor::new(bytes), compression).read_to_string(&mut text)?;
+        Inflater::new(Cursor::new(bytes)).read_to_string(&mut text)?;
         Ok(text)
     }
 
     #[test]
     fn members_are_joined_and_damage_is_found() {
-        for (compression, [first, second]) in members() {
-            assert_eq!(Compression::of(&first), Some(compression));
-            let both = [first, second].concat();
-            assert_eq!(inflated(both.clone(), compression).unwrap(), "1 2\n2 3\n");
-            for bad in [both[..both.len() - 3].to_vec(), [&both[..], b"x"].concat()] {
-                let error = inflated(bad, compression).unwrap_err();
-                assert!(error.downcast::<Damaged>().is_ok(), "{compression:?}");
-            }
+        let both = members().concat();
+        assert!(is_gzip(&both));
+        assert_eq!(inflated(both.clone()).unwrap(), "1 2\n2 3\n");
+        for bad in [both[..both.len() - 3].to_vec(), [&both[..], b"x"].concat()] {
+            let error = inflated(bad).unwrap_err();
+            assert!(error.downcast::<Damaged>().is_ok());
         }
     }
 
     /// No byte may change without being noticed, but for those that say nothing of the data.
     #[test]
     fn changed_bytes_are_found_by_the_checksum() {
-        for (compression, [first, _]) in members() {
-            for at in 0..first.len() {
-                let mut changed = first.clone();
-                changed[at] ^= 0x04;
-                if let Ok(text) = inflated(changed, compression) {
-                    assert_eq!(text, "1 2\n", "{compression:?} {at}");
-                }
+        let [first, _] = members();
+        for at in 0..first.len() {
+            let mut changed = first.clone();
+            changed[at] ^= 0x04;
+            if let Ok(text) = inflated(changed) {
+                assert_eq!(text, "1 2\n", "{at}");
             }
         }
     }
@@ -214,7 +180,7 @@ mod tests {
     fn what_inflates_a_thousandfold_is_refused() {
         let bomb = deflated(std::io::repeat(b'7').take(ALWAYS + (1 << 20)));
         let mut sink = std::io::sink();
-        let mut inflater = Inflater::new(Cursor::new(bomb), Compression::Gzip);
+        let mut inflater = Inflater::new(Cursor::new(bomb));
         let error = std::io::copy(&mut inflater, &mut sink).unwrap_err();
         assert_eq!(error.downcast::<Inflated>().unwrap(), Inflated::Ratio);
         sink.flush().unwrap();

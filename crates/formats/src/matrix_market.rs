@@ -1,9 +1,9 @@
 //! MatrixMarket files: an adjacency matrix as text.
 //!
 //! Format by NIST, "The Matrix Market Exchange Formats": a line that says what the matrix is,
-//! comments, a line with the sizes, and the entries. Of the format `coordinate` an entry a line: row
-//! and column, counted from 1, and its value unless only the pattern is given. Of the format `array`
-//! all values, column by column. Of a symmetric matrix one triangle is enough.
+//! comments, a line with the sizes, and the entries of the format `coordinate`, one a line: row
+//! and column, counted from 1, and its value unless only the pattern is given. Of a symmetric matrix one triangle
+//! is enough.
 //!
 //! What makes a graph of a matrix is in `matrix`; nodes are numbered as rows.
 
@@ -31,8 +31,6 @@ pub(super) fn is_matrix_market(head: &[u8]) -> bool {
 /// What the first line says of the entries.
 #[derive(Clone, Copy)]
 struct Kind {
-    /// All values are there, and no places.
-    array: bool,
     values: Values,
     /// One triangle says what is in the other.
     symmetric: bool,
@@ -86,8 +84,6 @@ struct File {
     /// In both triangles.
     entries: Vec<Entry>,
     seen: u64,
-    /// Where the next value of an array stands.
-    next: (u32, u32),
 }
 
 /// Rows, as many as columns, and how many entries are promised.
@@ -115,7 +111,7 @@ impl File {
             return Ok(());
         };
         let Some(size) = self.size else {
-            self.size = Some(kind.sizes(first, words)?);
+            self.size = Some(Kind::sizes(first, words)?);
             return Ok(());
         };
         self.seen += 1;
@@ -125,34 +121,18 @@ impl File {
                 "{promised} entries are promised, and here is one more"
             )));
         }
-        let (row, column) = if kind.array {
-            self.next
-        } else {
-            let row = place(first, size.nodes)?;
-            match words.next() {
-                Some(word) => (row, place(word, size.nodes)?),
-                None => return Err(said("the entry has no column".into())),
-            }
+        let row = place(first, size.nodes)?;
+        let Some(word) = words.next() else {
+            return Err(said("the entry has no column".into()));
         };
-        let word = if kind.array {
-            Some(first)
-        } else {
-            words.next()
-        };
-        let value = kind.value(word)?;
+        let column = place(word, size.nodes)?;
+        let value = kind.value(words.next())?;
         if !value.is_finite() {
             let (row, column) = (row + 1, column + 1);
             return Err(matrix::no_number([row, column], value));
         }
         if words.next().is_some() {
             return Err(said("the entry has too many fields".into()));
-        }
-        if kind.array {
-            self.next = kind.behind(self.next, size);
-            // What is not there is written as zero.
-            if value == 0.0 {
-                return Ok(());
-            }
         }
         self.entries.push((row, column, value));
         if kind.symmetric && row != column {
@@ -211,12 +191,16 @@ impl Kind {
         if word(0) != HEADER.to_ascii_lowercase() || word(1) != "matrix" {
             return Err(said(format!("a {} {} is not a matrix", word(0), word(1))));
         }
-        let array = word(2) == "array";
-        if !array && word(2) != "coordinate" {
+        if word(2) == "array" {
+            let what = "MatrixMarket: the format `array` is not read here";
+            let remedy = "in Python: scipy.io.mmwrite('graph.mtx', scipy.sparse.coo_array(scipy.io.mmread('FILE')))";
+            return Err(Problem::new(what, remedy));
+        }
+        if word(2) != "coordinate" {
             return refused("the format", 2);
         }
         let values = match word(3) {
-            "pattern" if !array => Values::Pattern,
+            "pattern" => Values::Pattern,
             "integer" | "unsigned-integer" => Values::Integer,
             "real" | "double" => Values::Real,
             _ => return refused("entries that are", 3),
@@ -226,35 +210,19 @@ impl Kind {
             "general" => false,
             _ => return refused("a matrix that is", 4),
         };
-        Ok(Self {
-            array,
-            values,
-            symmetric,
-        })
+        Ok(Self { values, symmetric })
     }
 
-    /// The line with rows and columns, and entries unless all are there.
-    fn sizes<'a>(
-        self,
-        rows: &'a str,
-        others: impl Iterator<Item = &'a str>,
-    ) -> Result<Size, Problem> {
+    /// The line with rows, columns and entries.
+    fn sizes<'a>(rows: &'a str, others: impl Iterator<Item = &'a str>) -> Result<Size, Problem> {
         let number = |word: &str| {
             let digits = word.bytes().all(|b| b.is_ascii_digit());
             word.parse::<u64>().ok().filter(|_| digits)
         };
         let numbers: Option<Vec<u64>> = std::iter::once(rows).chain(others).map(number).collect();
-        let (rows, columns, entries) = match (numbers.as_deref(), self.array) {
-            (Some(&[rows, columns, entries]), false) => (rows, columns, Some(entries)),
-            (Some(&[rows, columns]), true) => (rows, columns, None),
-            (_, array) => {
-                let what = if array {
-                    "rows and columns"
-                } else {
-                    "rows, columns and entries"
-                };
-                return Err(said(format!("the line with the sizes holds {what}")));
-            }
+        let Some(&[rows, columns, entries]) = numbers.as_deref() else {
+            let what = "the line with the sizes holds rows, columns and entries";
+            return Err(said(what.into()));
         };
         let (Ok(nodes), Ok(_)) = (u32::try_from(rows), u32::try_from(columns)) else {
             return Err(Problem::TooManyNodes);
@@ -262,19 +230,7 @@ impl Kind {
         if rows != columns {
             return Err(matrix::not_square(&format!("{rows} x {columns}")));
         }
-        let entries = entries.unwrap_or(match self.symmetric {
-            false => rows * columns,
-            true => rows * (rows + 1) / 2,
-        });
         Ok(Size { nodes, entries })
-    }
-
-    /// The place behind that of a value of an array, column by column, from 0.
-    fn behind(self, (row, column): (u32, u32), size: Size) -> (u32, u32) {
-        if row + 1 < size.nodes {
-            return (row + 1, column);
-        }
-        (if self.symmetric { column + 1 } else { 0 }, column + 1)
     }
 
     /// A value; that of a pattern is 1.
@@ -297,12 +253,7 @@ impl Kind {
         if self.values == Values::Integer && value.fract() != 0.0 {
             return Err(said(format!("`{word}` is no integer")));
         }
-        // What is too small for a number is not zero all the same.
-        let mantissa = word.split(['e', 'E']).next().unwrap_or_default();
-        match value == 0.0 && mantissa.contains(|digit| matches!(digit, '1'..='9')) {
-            true => Ok(f64::MIN_POSITIVE),
-            false => Ok(value),
-        }
+        Ok(value)
     }
 }
 
@@ -338,32 +289,15 @@ mod tests {
         let note = "1 pair is given again, the same or reversed, and merged";
         assert_eq!(graph(&text), (4, triangle.clone(), vec![note.into()]));
         let text = format!(
-            "{GENERAL}3 3 9\n1 2 .5\n2 1 1e3\n3 1 1e4\n1 3 1e-3\n2 3 7\n3 2 8\n1 1 0\n2 2 -0.0e5\n3 3 +.0"
+            "{GENERAL}3 3 9\n1 2 5.\n2 1 1e3\n3 1 1e4\n1 3 10e-1\n2 3 7\n3 2 8\n1 1 0\n2 2 -0.0e5\n3 3 +.0"
         );
-        let values = "entries are real numbers from 0.001 to 10000 (counts, weights?): each that is \
-                      not zero is a pair";
+        let values = "entries are integers from 1 to 10000 (counts, weights?): each that is not zero is a pair";
         let note = "explicit zeros are no pairs: 3 entries";
         assert_eq!(
             graph(&text),
             (3, triangle, vec![values.into(), note.into()])
         );
         assert_eq!(graph(&format!("{GENERAL}2 2 0\n")), (2, vec![], vec![]));
-    }
-
-    /// All values, and those of the lower triangle.
-    #[test]
-    fn arrays() {
-        let path = vec![(0, 1), (1, 2)];
-        for (symmetry, values) in [
-            ("general", "0 1 0 1 0 1 0 1 0"),
-            ("symmetric", "0 1 0 0 1 0"),
-        ] {
-            let values = values.replace(' ', "\n");
-            let text = format!("%%MatrixMarket matrix array integer {symmetry}\n3 3\n{values}\n");
-            let (nodes, edges, notes) = graph(&text);
-            assert_eq!((nodes, edges), (3, path.clone()), "{symmetry}");
-            assert_eq!(notes, [""; 0]);
-        }
     }
 
     #[test]
@@ -412,12 +346,8 @@ mod tests {
                 "a.mtx:3: entry (1, 2) is infinite",
             ),
             (
-                header("array pattern general"),
-                "entries that are `pattern` are not read",
-            ),
-            (
-                "%%MatrixMarket matrix array real general\n2 2\n0\n1\n1\n".to_owned(),
-                "4 entries are promised, and 3 are there",
+                header("array real general"),
+                "the format `array` is not read here; in Python: scipy.io.mmwrite",
             ),
             (format!("{GENERAL}2 2 1\n1 2 x\n"), "`x` is no number"),
             (

@@ -10,9 +10,7 @@ const MANIFEST: &str =
     "`verify check FOLDER`, with the folder that it lies in, checks what it lists";
 const REPORT: &str = "give the graph that it is about; `verify check` reads certificates \
                       (`verify GRAPH --certificate FILE`)";
-const PICTURE: &str = "give the graph that it shows";
 const TABLE: &str = "its graphs are in the first column: cut -f1 FILE | tail -n +2 | verify -";
-const COUNTS: &str = "the graphs are in the files .g6 and .jsonl.gz beside it";
 const WITNESS: &str =
     "give the graph that it is about; the cameras are for `check.py` and the like";
 
@@ -32,11 +30,9 @@ const FORMATS: [(&str, &str, &str); 3] = [
 ];
 
 /// The first columns of tables.
-const HEADS: [(&str, &str, &str); 4] = [
+const HEADS: [(&str, &str, &str); 2] = [
     ("graph6\tverdict\t", "a table of graphs", TABLE),
     ("graph6\tdegrees\t", "a table of graphs", TABLE),
-    ("nodes\tedges\tconnected\t", "a table of counts", COUNTS),
-    ("nodes\tedges\tcandidates\t", "a table of counts", COUNTS),
 ];
 
 /// A file of what is given besides a graph (`verify help given`), where a graph is expected: every line
@@ -92,30 +88,8 @@ pub(super) fn known(head: &[u8]) -> Option<Problem> {
             None
         };
     }
-    if text.starts_with("<svg") && text.contains("data-component=") {
-        return own("a picture", PICTURE);
-    }
-    // What a page may do is said at its head: nothing but its own script.
-    if text.starts_with("<!DOCTYPE html>")
-        && text.contains("default-src 'none'; script-src 'sha256-")
-    {
-        return own("a page", PICTURE);
-    }
-    if let Some((_, what, advice)) = HEADS.iter().find(|(head, ..)| text.starts_with(head)) {
-        return own(what, advice);
-    }
-    // A report for people: the graph's name, and lines of a word and what it is.
-    let mut lines = text.lines().skip(1);
-    let read = lines.next();
-    let is = |line: Option<&str>, word: &str| line.is_some_and(|line| line.starts_with(word));
-    let report = is(read, "  read as     ")
-        && is(lines.next(), "  graph       ")
-        && lines.any(|line| is(Some(line), "  verdict     "));
-    if report {
-        own("a report", REPORT)
-    } else {
-        None
-    }
+    let (_, what, advice) = HEADS.iter().find(|(head, ..)| text.starts_with(head))?;
+    own(what, advice)
 }
 
 #[cfg(test)]

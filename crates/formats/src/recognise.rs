@@ -10,7 +10,7 @@ use crate::edge_list::BYTE_ORDER_MARK;
 use crate::edge_list::fields::{integer, is_number};
 use crate::edge_list::table::is_own;
 use crate::error::Problem;
-use crate::inflate::Compression;
+use crate::inflate::is_gzip;
 use crate::lines::{Encoding, trimmed};
 use crate::tracks::{self, TrackFile};
 use crate::{colmap, matlab, matrix_market, own_files, sparse6};
@@ -29,7 +29,7 @@ pub(super) enum Kind {
     },
     Matlab,
     MatrixMarket,
-    Compressed(Compression),
+    Compressed,
     /// A database, which is COLMAP's or nothing that is read.
     Sqlite,
     /// Text that is read as a whole.
@@ -44,8 +44,8 @@ pub(super) enum Kind {
 /// # Errors
 /// What is recognised as something that is not read.
 pub(super) fn kind(head: &[u8], whole: bool) -> Result<Kind, Problem> {
-    if let Some(compression) = Compression::of(head) {
-        return Ok(Kind::Compressed(compression));
+    if is_gzip(head) {
+        return Ok(Kind::Compressed);
     }
     if head.starts_with(colmap::MAGIC) {
         return Ok(Kind::Sqlite);
@@ -227,8 +227,6 @@ fn binary(head: &[u8]) -> Option<Problem> {
 /// No name has more words.
 const MOST_WORDS: usize = 8;
 
-const PRINTED: &str = "a sparse matrix of SciPy as it is printed";
-const PRINTED_ADVICE: &str = "in Python: scipy.io.mmwrite('graph.mtx', A)";
 const GEXF: &str = "a graph in GEXF";
 const GEXF_ADVICE: &str = networkx!("networkx.read_gexf('FILE')");
 
@@ -244,7 +242,6 @@ fn by_first_words(head: &[u8]) -> Option<Problem> {
         .or_else(tracks)
         .or_else(|| kapture(text))
         .or_else(|| adjacency(text))
-        .or_else(|| lgl(text))
 }
 
 /// The refusal of a file with tracks, or of a part of a model.
@@ -275,24 +272,6 @@ fn adjacency(text: &str) -> Option<Problem> {
     })
 }
 
-/// Neighbours, perhaps with weights, below `# node`, as igraph writes them.
-fn lgl(text: &str) -> Option<Problem> {
-    let lines = text.lines().filter(|line| !line.trim().is_empty());
-    let (nodes, others): (Vec<&str>, Vec<&str>) = lines.partition(|line| line.starts_with("# "));
-    let is_lgl = text.starts_with("# ")
-        && nodes.len() > 2
-        && 3 * nodes.len() >= others.len()
-        && nodes
-            .iter()
-            .all(|node| node.split_whitespace().count() == 2);
-    is_lgl.then(|| {
-        foreign(
-            "a list of neighbours (LGL)",
-            "write pairs in its place (igraph: write_edgelist)",
-        )
-    })
-}
-
 /// A name for a text that is no list of pairs.
 pub(super) fn likely(head: &[u8], whole: bool) -> Option<Problem> {
     let head = head.strip_prefix(BYTE_ORDER_MARK).unwrap_or(head);
@@ -301,10 +280,7 @@ pub(super) fn likely(head: &[u8], whole: bool) -> Option<Problem> {
         _ => head,
     };
     let text = std::str::from_utf8(text).ok()?;
-    let model = || match tracks::kind(head, whole) {
-        Some(file @ TrackFile::Colmap { .. }) => Some(of_tracks(file)),
-        _ => None,
-    };
+    let model = || tracks::kind(head, whole).map(of_tracks);
     markup(text)
         .or_else(model)
         .or_else(|| encoded(head, whole))
@@ -351,6 +327,10 @@ fn markup(text: &str) -> Option<Problem> {
         () if has(&["frames", "transform_matrix"]) => Some(foreign(
             "a file of cameras of nerfstudio without matches",
             "give COLMAP's database.db or sparse/0, of which they were made",
+        )),
+        () if has(&["PoseGraph"]) => Some(foreign(
+            "a pose graph of Open3D",
+            "in Python: for e in json.load(open('FILE'))['edges']: print(e['source_node_id'], e['target_node_id'])",
         )),
         () if is_graph && edges => Some(foreign(
             "a graph in JSON",
@@ -400,9 +380,6 @@ fn words(text: &str, whole: bool) -> Option<Problem> {
     };
     let lines: Vec<Vec<&str>> = lines.filter(is_line).collect();
     let first = lines.first()?;
-    if text.trim_start().starts_with('(') && first.len() == 3 && first[1].ends_with(')') {
-        return Some(foreign(PRINTED, PRINTED_ADVICE));
-    }
     if integer(first[0]).is_some() && first.contains(&"CAMERA") {
         return Some(foreign("COLMAP's rigs.txt or frames.txt", COLMAP));
     }
@@ -414,33 +391,6 @@ fn words(text: &str, whole: bool) -> Option<Problem> {
         return Some(foreign("a DIMACS graph", DIMACS));
     }
     let number = |word: &&str| is_number(word.as_bytes());
-    let values = |line: &[&str]| {
-        line.iter()
-            .map(|word| integer(word))
-            .collect::<Option<Vec<u64>>>()
-    };
-    let counts = values(first);
-    if let (Some([cameras, points, observations]), Some([camera, point, ..])) =
-        (counts.as_deref(), lines.get(1).map(Vec::as_slice))
-        && lines[1].len() == 4
-        && *observations > 0
-        && integer(camera).is_some_and(|camera| camera < *cameras)
-        && integer(point).is_some_and(|point| point < *points)
-    {
-        return Some(of_tracks(TrackFile::Bal));
-    }
-    if let (2, Some([count])) = (
-        first.len(),
-        lines.get(1).and_then(|line| values(line)).as_deref(),
-    ) && counts.is_some()
-        && lines
-            .iter()
-            .skip(2)
-            .take(*count as usize)
-            .all(|line| line.len() == 2)
-    {
-        return Some(of_tracks(TrackFile::OpenMvgMatches));
-    }
     if whole
         && lines.len() > 2
         && lines

@@ -1,7 +1,7 @@
 //! Files that are read in one piece.
 
 use crate::error::{Place, Problem, ReadError};
-use crate::inflate::{Compression, Inflater};
+use crate::inflate::{Inflater, is_gzip};
 use std::fs;
 use std::io::{Cursor, Read};
 use std::path::Path;
@@ -35,12 +35,12 @@ pub fn text(path: &Path) -> Result<String, ReadError> {
 /// What cannot be unpacked, or is not UTF-8.
 pub(crate) fn text_of(bytes: &[u8]) -> Result<String, Problem> {
     let mut inner = Vec::new();
-    let bytes = match Compression::of(bytes) {
-        Some(how) => {
-            Inflater::new(Box::new(Cursor::new(bytes.to_vec())), how).read_to_end(&mut inner)?;
+    let bytes = match is_gzip(bytes) {
+        true => {
+            Inflater::new(Cursor::new(bytes.to_vec())).read_to_end(&mut inner)?;
             inner
         }
-        None => bytes.to_vec(),
+        false => bytes.to_vec(),
     };
     String::from_utf8(bytes).map_err(|_| Problem::NotUtf8)
 }

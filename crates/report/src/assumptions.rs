@@ -247,7 +247,7 @@ pub fn base_lines(
 ) -> Result<Option<(BaseLines, SharedBaseLines)>, Stopped> {
     let is_good = verdict.value != Value::NotFiniteSolvable;
     // That bodies by rules are rigid holds with frames as well; of a rank it is asked.
-    let is_asked = verdict.model == Model::Calibrated && !(is_good && verdict.pieces.is_empty());
+    let is_asked = verdict.model.in_space() && !(is_good && verdict.pieces.is_empty());
     let Some(frames) = input.frames.as_ref().filter(|_| is_asked) else {
         return Ok(None);
     };
@@ -373,7 +373,7 @@ impl Scope {
     ) -> Result<Self, Stopped> {
         let is_good = verdict.value != Value::NotFiniteSolvable;
         let may_hide = is_good
-            && verdict.model != Model::Affine
+            && !verdict.model.in_plane()
             && input.cameras.is_none()
             && verdict.displacements.is_empty()
             && verdict.own_frame.is_none()

@@ -38,7 +38,7 @@ fn means(here: &Here, graph: &Graph, generic: Option<usize>) -> &'static str {
     let edges = graph.edges().iter();
     let joined = edges.filter(|&&(i, j)| sets.union(i as usize, j as usize));
     let is_connected = joined.count() + 1 >= graph.nodes();
-    let is_linear = here.model != Model::Projective || here.is_planar && is_connected;
+    let is_linear = here.model.is_linear() || here.is_planar && is_connected;
     let is_degenerate = generic.is_none_or(|generic| here.rank.value < generic);
     match (here.is_determined(), is_linear) {
         (true, true) => "these cameras are the only ones",

@@ -55,15 +55,7 @@ pub(crate) fn warnings(found: &Narrow) -> Vec<String> {
             numbers(&hinge.pair),
         )
     });
-    let lines = found.lines.iter().filter(|line| line.special).map(|line| {
-        format!(
-            "{} hold a ring of parts together, and stand on one line ({:.1} degrees off): their \
-             scales against each other are not fixed, whatever the verdict says",
-            line.images.join(", "),
-            line.degrees
-        )
-    });
-    few.chain(between).chain(hinges).chain(lines).collect()
+    few.chain(between).chain(hinges).collect()
 }
 
 fn sides(hinge: &Hinge) -> String {

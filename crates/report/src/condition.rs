@@ -23,9 +23,9 @@ pub(crate) fn of(input: &NamedGraph) -> String {
 /// The same, where the input is of photographs; plain graphs are not.
 pub(crate) fn of_photographs(input: &NamedGraph, model: Model) -> Option<String> {
     let are_photographs = input.database.is_some() || input.cameras.is_some();
-    are_photographs.then(|| match model {
-        Model::Projective => if_right(input),
-        Model::Calibrated | Model::Affine => of(input),
+    are_photographs.then(|| match model.is_linear() {
+        false => if_right(input),
+        true => of(input),
     })
 }
 

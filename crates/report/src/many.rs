@@ -17,8 +17,6 @@ pub enum Format {
     Text,
     /// Comma-separated values behind a head.
     Csv,
-    /// A LaTeX table with the rules of booktabs.
-    Latex,
 }
 
 /// The columns of comma-separated values.
@@ -86,13 +84,6 @@ impl Table {
                 if counted { "solutions  " } else { "" },
             )?,
             Format::Csv => table.comma_separated(out, COLUMNS)?,
-            Format::Latex => write!(
-                out,
-                "\\begin{{tabular}}{{@{{}}lrrrlc{0}r@{{}}}}\n\\toprule\nName & \\#nodes & \\%density & \\#edges & \
-                  Verdict & \\#comp.{1} & Time [s] \\\\\n\\midrule\n",
-                if counted { "c" } else { "" },
-                if counted { " & \\#sol." } else { "" },
-            )?,
         }
         Ok(table)
     }
@@ -146,19 +137,6 @@ impl Table {
                     ],
                 )?;
             }
-            Format::Latex => {
-                let name = escaped(name);
-                let seconds = report.time.as_secs_f64();
-                let solutions = if self.counted {
-                    format!(" & {solutions}")
-                } else {
-                    String::new()
-                };
-                writeln!(
-                    out,
-                    "{name} & {nodes} & {percent} & {edges} & {words} & {components}{solutions} & {seconds:.2} \\\\"
-                )?;
-            }
         }
         self.graphs += 1;
         self.components += components;
@@ -183,14 +161,6 @@ impl Table {
                 let mut cells = [""; COLUMNS.len()];
                 (cells[0], cells[COLUMNS.len() - 1]) = (name, why);
                 self.comma_separated(out, cells)
-            }
-            Format::Latex => {
-                let (name, columns) = (escaped(name), if self.counted { 7 } else { 6 });
-                writeln!(
-                    out,
-                    "{name} & \\multicolumn{{{columns}}}{{l}}{{{}}} \\\\",
-                    escaped(why)
-                )
             }
         }
     }
@@ -231,8 +201,7 @@ impl Table {
         );
         match self.format {
             Format::Text if self.graphs > 0 => writeln!(out, "{summary}"),
-            Format::Text | Format::Csv => Ok(()),
-            Format::Latex => writeln!(out, "\\bottomrule\n\\end{{tabular}}\n% {summary}"),
+            _ => Ok(()),
         }
     }
 }
@@ -272,21 +241,6 @@ fn density(nodes: usize, edges: usize) -> usize {
     (200 * edges + all) / (2 * all)
 }
 
-/// A name as LaTeX prints it.
-fn escaped(name: &str) -> String {
-    let mut text = String::new();
-    for letter in name.chars() {
-        match letter {
-            '_' | '&' | '%' | '#' | '$' | '{' | '}' => text.extend(['\\', letter]),
-            '\\' => text.push_str("\\textbackslash{}"),
-            '~' => text.push_str("\\textasciitilde{}"),
-            '^' => text.push_str("\\textasciicircum{}"),
-            other => text.push(other),
-        }
-    }
-    text
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -296,6 +250,5 @@ mod tests {
         // Gustav Vasa: 110 of 153; Dino 319: 230 of 630.
         let densities = [(18, 110), (36, 230), (2, 1), (1, 0)].map(|(n, m)| density(n, m));
         assert_eq!(densities, [72, 37, 100, 0]);
-        assert_eq!(escaped("a_b\\"), "a\\_b\\textbackslash{}");
     }
 }

@@ -166,7 +166,7 @@ pub(super) fn condition(input: &NamedGraph, verdict: &Verdict, scope: &Scope) ->
 pub(super) fn promised(input: &NamedGraph, verdict: &Verdict, scope: &Scope) -> Option<String> {
     // Pairs fix focal lengths then, and no mapper finds them.
     let model = if scope.asks_focal() {
-        Model::Projective
+        Model::default()
     } else {
         verdict.model
     };

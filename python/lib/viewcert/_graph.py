@@ -412,8 +412,8 @@ def read(
         or a file of OpenMVG, AliceVision or OpenSfM.
     format : str, optional
         The format of files that do not show it: ``'edges'``, ``'graph6'``, ``'sparse6'``,
-        ``'matlab'``, ``'matrix-market'``, ``'match-list'``, ``'glomap'``, ``'1dsfm'``,
-        ``'openmvg-pairs'``, ``'raw-matches'``, ``'g2o'``, ``'open3d'``, ``'mvsnet'`` or ``'graphml'``.
+        ``'matlab'``, ``'matrix-market'``,
+        ``'openmvg-pairs'``, ``'raw-matches'``, ``'g2o'`` or ``'graphml'``.
     variable : str, optional
         The variable of a MATLAB file.
     pipeline, min_inliers : optional

@@ -14,7 +14,7 @@ from ._errors import Error, InputError
 from ._graph import Graph, Path, as_graph
 from ._pickled import found_of
 from ._question import asked, of_pairs
-from ._tables import html_of, json_of, rows_of
+from ._tables import csv_of, html_of, rows_of
 from ._types import Decided, N, RulingWord
 from ._verdict import Verdict, verify
 
@@ -217,7 +217,7 @@ def audit_claims(
     Parameters
     ----------
     table : path, data frame, mapping, or iterable of mappings
-        A file of CSV or JSON, or rows. Columns are ``graph`` (a graph, a line of graph6, a path, or as
+        A file of CSV, or rows. Columns are ``graph`` (a graph, a line of graph6, a path, or as
         ``name``), ``graph6``, ``file`` or
         ``name`` (in `graphs`), and what is claimed: ``verdict``, ``components``, ``solutions``, ``rank``,
         ``model``; ``nodes``, ``edges`` and ``sha256`` say which graph is meant. See docs/audit.md.
@@ -254,7 +254,7 @@ def audit_claims(
                     # What it is called does not matter: it is there.
                     row[name] = given[number] if isinstance(given[number], str) else "graph"
         given = {number: graph for number, graph in given.items() if not isinstance(graph, str)}
-        text = json_of(rows)
+        text = csv_of(rows)
     claims = _native.Claims(text, list(ignore))
     named = dict(graphs) if isinstance(graphs, Mapping) else {}
     folder = None if graphs is None or isinstance(graphs, Mapping) else os.fspath(graphs)

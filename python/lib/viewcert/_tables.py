@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import html
 import io
-import json
 import os
 from typing import Any, Dict, Iterable, List, Mapping, Sequence
 
@@ -45,11 +44,6 @@ def rows_of(table: Any) -> List[Dict[str, Any]]:
 def plain(value: Any) -> Any:
     """A cell for JSON: a number of numpy as one of Python."""
     return value.item() if hasattr(value, "item") else value
-
-
-def json_of(rows: Iterable[Mapping[str, Any]]) -> str:
-    """Rows as a list of objects."""
-    return json.dumps([{name: plain(value) for name, value in row.items()} for row in rows], indent=0)
 
 
 def csv_of(table: Any) -> str:

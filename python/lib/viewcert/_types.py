@@ -71,8 +71,8 @@ Errors = Literal["raise", "return"]
 
 #: Formats of files that hold one graph.
 Format = Literal[
-    "edges", "matlab", "matrix-market", "match-list", "glomap", "1dsfm", "openmvg-pairs",
-    "raw-matches", "g2o", "open3d", "mvsnet", "graphml",
+    "edges", "matlab", "matrix-market", "openmvg-pairs",
+    "raw-matches", "g2o", "graphml",
 ]
 
 #: Formats of files with a graph on every line.

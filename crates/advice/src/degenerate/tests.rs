@@ -21,7 +21,6 @@ fn estimate(images: (u32, u32), config: i64, angle: f64) -> Estimate {
         config,
         angle: Some(angle),
         forward: None,
-        towards: None,
         rotation: None,
     }
 }
@@ -100,43 +99,4 @@ fn hinges_are_alone_unless_a_track_leads_past() {
     assert_eq!((hinge.special, &hinge.sides[..]), (true, &[2, 2][..]));
     assert_eq!(hinge.pair.angle, Some(0.4));
     assert!(of(&[&[0, 1, 2, 3], &[2, 3, 4, 5], &[1, 2, 4]]).is_empty());
-}
-
-/// Three groups in a ring: their hinges in a row, and not.
-#[test]
-fn hinges_on_a_line() {
-    let groups = [[0, 1, 3, 6], [1, 2, 4, 7], [0, 2, 5, 8]];
-    let edges = groups.iter().flat_map(|group| clique(group));
-    let pairs = named(Graph::new(9, edges).unwrap());
-    let edges = (9..)
-        .zip(&groups)
-        .flat_map(|(point, seen)| seen.iter().map(move |&v| (v, point)));
-    let graph = Graph::new(12, edges).unwrap();
-    let verdict = decided(&graph);
-    let tracks = NamedGraph {
-        cameras: Some(9),
-        ..named(graph)
-    };
-    for (aside, expected) in [(0.01, true), (0.5, false)] {
-        let towards = |images, towards| Estimate {
-            towards: Some([towards; 2]),
-            ..estimate(images, 2, 20.0)
-        };
-        let told = BTreeMap::from([
-            ((0, 1), towards((0, 1), [1.0, 0.0, 0.0])),
-            (
-                (0, 2),
-                towards((0, 2), [f64::cos(aside), f64::sin(aside), 0.0]),
-            ),
-        ]);
-        let found = narrow(&pairs, Some((&tracks, &verdict)), &mut Told(told)).unwrap();
-        let [line] = &found.lines[..] else {
-            panic!("{found:?}")
-        };
-        assert_eq!(
-            (line.special, &line.images),
-            (expected, &["0", "1", "2"].map(Into::into))
-        );
-        assert!((line.degrees - aside.to_degrees()).abs() < 1e-6);
-    }
 }

@@ -159,7 +159,6 @@ impl Geometry for Told {
 fn what_disqualifies_a_beginning() {
     let estimate = |config, angle, forward| Estimate {
         images: [0, 0],
-        towards: None,
         rotation: None,
         config,
         angle: Some(angle),
@@ -201,7 +200,6 @@ fn nothing_is_made_in_one_place() {
         config: 2,
         angle: Some(0.5),
         forward: Some(0.1),
-        towards: None,
         rotation: None,
     };
     let mut told = Told(BTreeMap::from([((2, 3), close)]));

@@ -207,7 +207,7 @@ impl Task<'_> {
 
     /// Whether what is finite is unique.
     fn is_unique(&self) -> bool {
-        self.verdict.model != Model::Projective || self.verdict.value == Value::Solvable
+        self.verdict.model.is_linear() || self.verdict.value == Value::Solvable
     }
 
     /// Whether each component of three images and more has one solution by itself.

@@ -249,7 +249,7 @@ impl<'a> Centres<'a> {
         nodes: &[u32],
         core: &Core,
     ) -> Option<Vec<[u64; 3]>> {
-        let width = if self.model == Model::Affine { 2 } else { 3 };
+        let width = if self.model.in_plane() { 2 } else { 3 };
         let mut points = Vec::with_capacity(nodes.len());
         for &v in nodes {
             let place = &self.places[v as usize];

@@ -195,7 +195,7 @@ impl Checker<'_> {
         );
         let vector: Vec<u64> = piece.kernel.iter().map(|x| field.element(x.0)).collect();
         let classes = (&owner[..], parts.len());
-        if model == Model::Affine {
+        if model.in_plane() {
             let plane: Vec<[u64; 2]> = points.iter().map(|&[x, y, _]| [x, y]).collect();
             check_apart(core, classes, |edge| {
                 plane_motion(field, core, &plane, &vector, edge)

@@ -116,7 +116,7 @@ impl IntrinsicsCertificate {
             "the classes that are expected have another hash"
         );
         let setting = &Setting {
-            model: Model::Projective,
+            model: Model::default(),
             sha256,
             vectors: None,
             own_frame: None,

@@ -22,8 +22,8 @@ mod support;
 mod system;
 mod zeros;
 
+use crate::document::Number;
 use crate::document::solutions::{Lower, Solutions, Step, Upper};
-use crate::document::{Model, Number};
 use crate::evidence::Piece;
 use crate::limits::Meter;
 use crate::rejection::{Checked, Within, ensure};
@@ -72,7 +72,7 @@ pub(crate) fn check(
         !piece.is_rigid && piece.lower == required
     };
     ensure!(
-        structure.setting.model == Model::Projective
+        !structure.setting.model.is_linear()
             && matches!(pieces, [piece] if is_finite(piece) && piece.nodes == all),
         "the graph is not one piece that is finite solvable, in the projective model"
     );

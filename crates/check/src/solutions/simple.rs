@@ -61,8 +61,8 @@ fn excess(system: &System) -> i64 {
     let pairs = chart.half_edges.iter().flat_map(|_| [2, 2]);
     let members = sizes
         .chain(pairs)
-        .map(|size| Model::Projective.required(size));
-    members.sum::<i64>() - Model::Projective.required(chart.nodes)
+        .map(|size| Model::default().required(size));
+    members.sum::<i64>() - Model::default().required(chart.nodes)
 }
 
 /// The values of all unknowns, none of which is zero.

@@ -72,7 +72,7 @@ impl Centres {
             let matrix: [Integer; 12] = integral(std::array::from_fn(|k| &camera[k / 4][k % 4]))
                 .ok_or(CentreError::Degenerate(v))?;
             let rows = std::array::from_fn(|r| std::array::from_fn(|c| matrix[4 * r + c].clone()));
-            if model == Model::Affine && matrix[8..11].iter().any(|entry| !entry.is_zero()) {
+            if model.in_plane() && matrix[8..11].iter().any(|entry| !entry.is_zero()) {
                 return Err(CentreError::NotAffine(v));
             }
             places.push(primitive(centre(&Integers, &rows)).ok_or(CentreError::Degenerate(v))?);

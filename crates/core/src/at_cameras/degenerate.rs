@@ -4,7 +4,6 @@
 //! one line modulo 2^61 - 1 is called so.
 
 use super::centres::Centres;
-use crate::geometry::model::Model;
 use crate::linalg::Ring;
 use crate::linalg::prime::PrimeField;
 use std::collections::BTreeMap;
@@ -65,7 +64,7 @@ pub(super) fn sets(centres: &Centres) -> Vec<Special> {
         _ => Vec::new(),
     };
     let planes = match rank {
-        _ if centres.model == Model::Affine => Vec::new(),
+        _ if centres.model.in_plane() => Vec::new(),
         3 if places.len() > 3 && !is_nearly_line(centres, &first, &whole) => vec![whole],
         4 if places.len() <= PLANES => planes(centres, &first),
         _ => Vec::new(),
@@ -197,7 +196,7 @@ mod tests {
     fn found(points: &[[i64; 3]]) -> Vec<Special> {
         let rational = |x: i64| Rational::from(Integer::from(x));
         let points: Vec<_> = points.iter().map(|x| x.map(rational)).collect();
-        sets(&Centres::of_points(Model::Projective, &points).unwrap())
+        sets(&Centres::of_points(crate::Model::Projective, &points).unwrap())
     }
 
     #[test]

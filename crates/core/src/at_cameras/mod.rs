@@ -142,9 +142,10 @@ impl Here {
     /// model.
     pub fn motions(&self) -> usize {
         let missing = self.required - self.rank.value;
-        match self.model {
-            Model::Affine => missing / 4,
-            _ => missing,
+        if self.model.in_plane() {
+            missing / 4
+        } else {
+            missing
         }
     }
 }

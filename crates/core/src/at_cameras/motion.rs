@@ -78,7 +78,7 @@ impl Here {
         watch: &Watch,
     ) -> Result<Option<Vec<Motion>>, Stopped> {
         let parts: Vec<Vec<u32>> = self.components.value.iter().map(|c| c.nodes()).collect();
-        if self.model == Model::Affine {
+        if self.model.in_plane() {
             return Ok(None);
         }
         if parts.is_empty() {

@@ -145,13 +145,13 @@ impl<'a> Placed<'a> {
     ) -> Result<(usize, Matrices<'p>), Stopped> {
         let core = self.core;
         let task = self.setting.watch.task(Step::Flows, core.graph.nodes());
-        if self.model() == Model::Affine {
+        if self.model().in_plane() {
             let directions = PlaneDirections::new(field, &core.graph, &points.plane, &task)?;
             return Ok((4 * directions.rank(), Matrices::Plane(Box::new(directions))));
         }
         let flows = PlaneFlows::new(field, &core.graph, &points.space, &task)?;
         let rigidity = flows.rigidity_rank();
-        if self.model() == Model::Calibrated {
+        if self.model().in_space() {
             return Ok((rigidity, Matrices::Space(Box::new(flows), None)));
         }
         let rank = |lambda: &Lambda| 4 * rigidity + lambda.rank() - core.graph.edges().len();

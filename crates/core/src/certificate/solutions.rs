@@ -7,7 +7,6 @@
 use super::objects::{Big, bigs, object, objects, written};
 use crate::decide::evidence::Evidence;
 use crate::decide::{Joined, Round, Rounds, Value, Verdict};
-use crate::geometry::model::Model;
 use crate::solutions::{
     AtMost, Chart, Factor, Linear, Lower, Merge, Minor, Number, One, Part, Place, Solutions, Upper,
 };
@@ -151,7 +150,7 @@ pub(super) fn view<'a>(
     let is_known = is_one || solutions.is_some_and(counted);
     let is_finite = verdict.value != Value::NotFiniteSolvable && verdict.rigid.is_empty();
     let are_unique = verdict.contraction.by_rank.is_empty();
-    if !is_known || !is_finite || !are_unique || verdict.model != Model::Projective {
+    if !is_known || !is_finite || !are_unique || verdict.model.is_linear() {
         return Ok(None);
     }
     let bodies = piece.members.bodies.iter();

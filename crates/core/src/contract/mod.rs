@@ -204,7 +204,7 @@ impl Contraction {
             let owners = merge::close(&mut bodies, remaining, graph.nodes(), &Generic);
             let (owned, loose) = by_owner(&owners, remaining);
             // In a plane all planes through two centres are one.
-            let bicliques = model == Model::Projective;
+            let bicliques = !model.is_linear();
             if bicliques && bicliques::merge(&mut bodies, &loose, graph.nodes(), &steps) {
                 continue;
             }

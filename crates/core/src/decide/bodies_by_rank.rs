@@ -16,7 +16,6 @@ use crate::decide::evidence::Evidence;
 use crate::decide::options::Options;
 use crate::decide::question::{Arithmetic, CountSolutions};
 use crate::decide::walk::Piece;
-use crate::geometry::model::Model;
 use crate::graph::{Adjacency, Graph};
 use rayon::prelude::*;
 use std::collections::VecDeque;
@@ -45,7 +44,7 @@ pub(super) fn extend(
 ) -> Result<(Contraction, Vec<Evidence>), VerdictError> {
     let mut evidence = Vec::new();
     let asked = &options.question;
-    let is_wanted = asked.model == Model::Projective
+    let is_wanted = !asked.model.is_linear()
         && !asked.whole_graph
         && asked.arithmetic == Arithmetic::Prime
         && asked.solutions != CountSolutions::Full;

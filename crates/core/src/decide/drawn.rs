@@ -133,13 +133,13 @@ impl<'a> Ranks<'a> {
         core: &'a Core,
     ) -> Result<Self, Stopped> {
         let mut task = watch.task(Step::Flows, core.graph.nodes());
-        if model == Model::Projective {
+        if !model.is_linear() {
             task = plane_flow::expect_lambda(&core.graph, &task)?;
         }
         let flows =
             PlaneFlows::with_scales(&at.field, &core.graph, &core.scales, &at.values, &task)?;
         let rigidity = flows.rigidity_rank();
-        let (lambda, rank) = if model == Model::Projective {
+        let (lambda, rank) = if !model.is_linear() {
             let lambda = flows.lambda(at.key.flow_weights(&at.field), &task)?;
             let rank = 4 * rigidity + lambda.rank() - core.graph.edges().len();
             (Some(lambda), rank)

@@ -3,7 +3,7 @@
 
 use crate::contract::piece::Members;
 use crate::decide::claim::Strength;
-use crate::geometry::model::Model;
+use crate::geometry::model::full_rank;
 use crate::geometry::plane_flow::PlaneFlowRank;
 use crate::linalg::integer::Integer;
 use crate::linalg::textbook::Pivots;
@@ -273,7 +273,7 @@ impl Draws {
     /// exponent of the error bound they reach; `None` for a core too large for the bound
     /// (2^32 nodes and more).
     pub(crate) fn plan(nodes: usize) -> Option<(u64, i64)> {
-        let size = Model::Projective.required(nodes).checked_ilog2()? + 1;
+        let size = full_rank(nodes).checked_ilog2()? + 1;
         let each = 56u64.checked_sub(size.into()).filter(|&each| each >= 20)?;
         let count = 120u64.div_ceil(each);
         Some((count, -((count * each) as i64)))

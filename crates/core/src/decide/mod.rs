@@ -127,7 +127,7 @@ pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError>
         false => assembly.split(&all),
     };
     drop(work);
-    let pieces = if *model == Model::Affine {
+    let pieces = if model.in_plane() {
         plane_piece::decide_all(&assembly, &pieces, &sha256, options)?
     } else {
         one_piece::decide_all(&assembly, &pieces, &sha256, options)?
@@ -374,8 +374,8 @@ impl Found<'_> {
             // Pieces may hang together in scaled bodies.
             _ if !self.displacements.is_empty() && rank == self.required() => Value::Solvable,
             _ if is_unique || self.graph.nodes() == 1 => Value::Solvable,
-            Model::Calibrated | Model::Affine if is_full => Value::Solvable,
-            Model::Projective if is_full => Value::FiniteSolvable,
+            model if is_full && model.is_linear() => Value::Solvable,
+            _ if is_full => Value::FiniteSolvable,
             _ => Value::NotFiniteSolvable,
         }
     }
@@ -467,7 +467,7 @@ impl Found<'_> {
         let (mut effort, mut counted) = (self.effort(contraction), 0);
         for component in components {
             let (bodies, edges) = (&component.members.bodies, &component.members.edges);
-            let is_one = self.model() != Model::Projective
+            let is_one = self.model().is_linear()
                 || bodies.len() + edges.len() == 1 && contraction.by_rank.is_empty();
             let mut count = if is_one {
                 SolutionCount::one()

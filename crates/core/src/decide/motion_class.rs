@@ -45,7 +45,7 @@ mod tests {
         // The 4-cycle 0-1-2-3: four loose edges, one piece.
         let pairs = vec![(0, 1), (1, 2), (2, 3), (0, 3)];
         let (graph, _) = Graph::from_pairs(4, pairs).unwrap();
-        let assembly = Assembly::new(&graph, &Contraction::new(&graph, Model::Projective));
+        let assembly = Assembly::new(&graph, &Contraction::new(&graph, Model::default()));
         let piece = &assembly.split(&assembly.all()).pieces[0];
         let core = assembly.core(piece);
         let found = classes(piece, &core, &[7, 8, 7, 9]);

@@ -15,7 +15,6 @@ use crate::decide::question::Arithmetic;
 use crate::decide::vectors;
 use crate::decide::walk::{ATTEMPTS, Alone, Piece};
 use crate::decide::whole_matrix;
-use crate::geometry::model::Model;
 use crate::watch::Step;
 use rayon::prelude::*;
 
@@ -84,7 +83,7 @@ impl Piece<'_> {
     /// The rank of the paper's own matrix on the core, if it was asked for.
     fn whole_matrix(&self) -> Result<Option<(Evidence, usize)>, VerdictError> {
         let asked = &self.options.question;
-        if asked.model != Model::Projective {
+        if asked.model.is_linear() {
             return Ok(None);
         }
         let (graph, key, task) = (&self.core.graph, self.key(0), self.task(Step::WholeMatrix));
@@ -164,7 +163,7 @@ impl Piece<'_> {
         lower: usize,
     ) -> Result<Option<Counting>, VerdictError> {
         let asked = &self.options.question;
-        if !asked.counting && asked.model == Model::Projective {
+        if !asked.counting && !asked.model.is_linear() {
             return Ok(None);
         }
         let counting = match self.assembly.placed() {

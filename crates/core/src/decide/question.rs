@@ -186,18 +186,18 @@ impl Question {
 
     pub(super) fn check(&self) -> Result<(), Meaningless> {
         let model = self.model;
-        let is_projective = model == Model::Projective;
+        let is_projective = !model.is_linear();
         let rational = self.arithmetic != Arithmetic::Prime;
         let displacements = !matches!(self.known, Known::Parts(_));
         let full = matches!(self.solutions, CountSolutions::Full);
         let wrong = [
             (rational && !is_projective, Meaningless::Rational(model)),
             (
-                !self.counting && model == Model::Affine,
+                !self.counting && model.in_plane(),
                 Meaningless::AffineWithoutCounting,
             ),
             (
-                displacements && model != Model::Calibrated,
+                displacements && !model.in_space(),
                 Meaningless::Displacements(model),
             ),
             (

@@ -7,7 +7,7 @@ use crate::geometry::draw;
 use crate::geometry::draw::DrawKey;
 use crate::geometry::jacobian;
 use crate::geometry::jacobian::SparseRows;
-use crate::geometry::model::Model;
+use crate::geometry::model::full_rank;
 use crate::graph::Graph;
 use crate::linalg::Ring;
 use crate::linalg::bareiss;
@@ -35,7 +35,7 @@ const MAX_LIFTED: usize = 1 << 23;
 const MAX_FRACTION_FREE: usize = 168 * 280;
 
 /// Largest minor whose determinant is computed: the rank at 25 cameras, a second or two.
-const MAX_DETERMINANT: usize = Model::Projective.required(25);
+const MAX_DETERMINANT: usize = full_rank(25);
 
 /// The rank of J_P modulo a prime at general cameras.
 pub(super) fn modular(
@@ -77,7 +77,7 @@ pub(super) fn rational(
     } else {
         let pivots = sparse_pivots(graph, &jacobian, cols, task)?;
         // The trivial motions alone account for the rest of a full rank.
-        let kernel = if pivots.rank() == Model::Projective.required(graph.nodes()) {
+        let kernel = if pivots.rank() == full_rank(graph.nodes()) {
             Vec::new()
         } else {
             if rows * cols > MAX_LIFTED {

@@ -16,7 +16,27 @@ pub enum Model {
     Affine,
 }
 
+/// The rank of J_P for a finite solvable graph with n >= 2 nodes (Theorem 1.3 of docs/theory.md).
+pub const fn full_rank(n: usize) -> usize {
+    Model::Projective.required(n)
+}
+
 impl Model {
+    /// Whether its equations are linear, so that finitely many solutions are one.
+    pub const fn is_linear(self) -> bool {
+        !matches!(self, Self::Projective)
+    }
+
+    /// Whether it is rigidity in space.
+    pub const fn in_space(self) -> bool {
+        matches!(self, Self::Calibrated)
+    }
+
+    /// Whether it is rigidity in the plane.
+    pub const fn in_plane(self) -> bool {
+        matches!(self, Self::Affine)
+    }
+
     /// The rank of a finite solvable graph, or of a body, with n >= 2 nodes: 11 n - 15 of J_P
     /// (Theorem 1.3 of docs/theory.md; Theorem 1 of the paper), in the calibrated model
     /// 3 n - 4 of N (Lemma 4.8), in the affine model 8 n - 12, four times that of R (Theorem

@@ -24,7 +24,7 @@ impl KnownParts {
     /// let graph = Graph::new(3, [(0, 1)])?;
     /// let parts = KnownParts::new(3, [vec![2, 0, 1], vec![1, 2, 0, 0], vec![2]])?;
     /// assert_eq!(parts.iter().collect::<Vec<_>>(), [[0, 1, 2]]);
-    /// let question = Question::with_parts(Model::Projective, parts);
+    /// let question = Question::with_parts(Model::default(), parts);
     /// let verdict = decide(&graph, &Options::default().question(question))?;
     /// assert_eq!(verdict.value, Value::Solvable);
     /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -9,7 +9,6 @@ use super::{Class, Metric, Sensors};
 use crate::contract::{Members as Union, Merge, Part};
 use crate::decide::Verdict;
 use crate::decide::evidence::{ClassKind, Evidence, ModularDraw, PieceVerdict};
-use crate::geometry::model::Model;
 use crate::graph::Graph;
 use crate::linalg::prime::PrimeField;
 use crate::linalg::textbook::Pivots;
@@ -73,7 +72,7 @@ impl Certified {
         watch: &Watch,
     ) -> Result<Option<Self>, Stopped> {
         assert_eq!(sensors.nodes(), graph.nodes(), "a sensor for each node");
-        assert_eq!(verdict.model, Model::Projective, "the projective verdict");
+        assert!(!verdict.model.is_linear(), "the projective verdict");
         if graph.edges().is_empty() {
             return Ok(None);
         }

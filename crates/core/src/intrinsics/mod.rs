@@ -31,7 +31,6 @@ pub use sensors::Sensors;
 
 use crate::decide::Verdict;
 use crate::geometry::draw::DrawKey;
-use crate::geometry::model::Model;
 use crate::graph::Graph;
 use crate::watch::{Stopped, Watch};
 use bound::Alike;
@@ -186,7 +185,7 @@ impl Metric {
         watch: &Watch,
     ) -> Result<Self, Stopped> {
         assert_eq!(sensors.nodes(), graph.nodes(), "a sensor for each node");
-        assert_eq!(verdict.model, Model::Projective, "the projective verdict");
+        assert!(!verdict.model.is_linear(), "the projective verdict");
         let members = Members::new(graph, verdict, sensors);
         let of = (graph, verdict.sha256);
         Ok(Self::of_members(of, &members, sensors, seed, watch)?.0)

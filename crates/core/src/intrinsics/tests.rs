@@ -412,7 +412,7 @@ fn the_two_ends_are_the_projective_and_the_calibrated_model() {
         let unknown = of(Class::Unknown).unwrap();
         assert_eq!(unknown.rank, projective.rank);
         assert!(unknown.components.is_empty());
-        let question = Question::from(Model::Calibrated);
+        let question = Question::from(crate::Model::Calibrated);
         let calibrated = decide(&graph, &Options::default().question(question)).unwrap();
         let nodes_of = |component: &crate::decide::Component| component.nodes();
         let mut expected: Vec<Vec<u32>> = calibrated.components.iter().map(nodes_of).collect();

@@ -31,7 +31,7 @@ pub(super) fn eliminate(
         let mut state = seed;
         let centres = place.iter().map(|_| [(); 3].map(|()| next(&mut state)));
         let centres: Vec<[u64; 3]> = centres.collect();
-        if model == Model::Projective && graph.nodes() > SMALL_CORE {
+        if !model.is_linear() && graph.nodes() > SMALL_CORE {
             let found = flows::eliminate(graph, &place, centres, rank, &mut state)?;
             return accepts(&found).then_some(found);
         }

@@ -71,9 +71,9 @@ pub(super) fn row_of(
     centres: [[u64; 3]; 2],
     entry: (usize, usize),
 ) -> Row {
-    let mut row = match model {
-        Model::Projective => equation(nodes, centres, entry),
-        Model::Calibrated | Model::Affine => minor(model.width(), nodes, centres, entry),
+    let mut row = match model.is_linear() {
+        false => equation(nodes, centres, entry),
+        true => minor(model.width(), nodes, centres, entry),
     };
     row.sort_unstable_by_key(|&(k, _)| k);
     row.dedup_by(|next, before| {

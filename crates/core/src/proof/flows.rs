@@ -82,7 +82,7 @@ fn of_centres(
         }
     }
     Ok(Some(Eliminated {
-        model: Model::Projective,
+        model: Model::default(),
         masks,
         // Without any, the rows would be taken for those of J_P.
         flows: match found.flows {

@@ -22,7 +22,6 @@ pub use text::Proof;
 use bodies::Record;
 
 use crate::decide::{Value, Verdict};
-use crate::geometry::model::Model;
 use crate::graph::Graph;
 use std::fmt;
 
@@ -126,7 +125,7 @@ impl Verdict {
                 Err(unproved) => return Err(unproved),
             }
         }
-        let cameras = model == Model::Projective && !refuted;
+        let cameras = !model.is_linear() && !refuted;
         let by_rules = cameras && listed::determine_all(&record.done, graph.nodes());
         let uniques = if cameras && !by_rules {
             unique::determine_all(graph.edges(), graph.nodes(), record.done.len() as u32 + 1)

@@ -70,9 +70,9 @@ impl Proof {
     /// common nodes and triangles do (Theorem 4.1), or scales that linear algebra settles (Theorem 10.6);
     /// in the calibrated and the affine model directions determine points at full rank (Theorem 4.8).
     pub fn is_solvable(&self) -> bool {
-        match self.model {
-            Model::Projective => self.solvable,
-            model => self.lower == model.full(self.nodes),
+        match self.model.is_linear() {
+            true => self.lower == self.model.full(self.nodes),
+            false => self.solvable,
         }
     }
 }
@@ -151,7 +151,7 @@ impl fmt::Display for Proof {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "viewcert proof 1")?;
         writeln!(f, "graph {} {}", self.nodes, self.pairs)?;
-        if self.model != Model::Projective {
+        if self.model.is_linear() {
             writeln!(f, "model {}", self.model)?;
         }
         writeln!(f, "claim {} {}", self.lower, self.upper)?;

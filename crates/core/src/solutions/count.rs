@@ -133,7 +133,7 @@ const MOST_SEARCHED: [usize; 2] = [1 << 22, 1 << 16];
 /// Bounds are proofs, whatever was drawn (docs/theory.md, section 10). `seed` selects centres.
 /// Nothing stops this; [`decide`](crate::decide::decide) counts under a watch.
 pub fn count(graph: &Graph, effort: Effort, seed: u64) -> Option<Solutions> {
-    let contraction = Contraction::new(graph, Model::Projective);
+    let contraction = Contraction::new(graph, Model::default());
     let plan = Plan {
         effort,
         quick: false,

@@ -6,7 +6,7 @@
 
 use super::evidence::{Merge, Rule, Solutions};
 use crate::contract::Contraction;
-use crate::geometry::model::Model;
+use crate::geometry::model::full_rank;
 use std::collections::BTreeMap;
 
 /// The most nodes that members may share: one bit for each.
@@ -110,7 +110,7 @@ impl Members {
 
     /// The same for what members have between some nodes.
     pub(super) fn excess_between(&self, inside: Set) -> i64 {
-        let required = |set: Set| Model::Projective.required(set.count_ones() as usize) as i64;
+        let required = |set: Set| full_rank(set.count_ones() as usize) as i64;
         let members = self.sets.iter().map(|set| set & inside);
         members
             .filter(|set| set.count_ones() > 1)

@@ -5,7 +5,7 @@
 //! those before it nodes of one member that is in both, or two nodes. In the latter case the factors
 //! that hold the two have to be finite solvable by themselves, which is asked of the caller.
 
-use crate::geometry::model::Model;
+use crate::geometry::model::full_rank;
 use crate::graph::{Lists, UnionFind, biconnected_components};
 use crate::watch::Work;
 use std::collections::{BTreeMap, BTreeSet};
@@ -61,7 +61,7 @@ pub(super) fn factors(
 
 /// Equations less unknowns of what members form: the sum of 11 k - 15 over them, less 11 n - 15.
 pub(super) fn excess<'m>(members: impl Iterator<Item = &'m [u32]>) -> i64 {
-    let required = |nodes: usize| Model::Projective.required(nodes) as i64;
+    let required = |nodes: usize| full_rank(nodes) as i64;
     let (mut equations, mut nodes) = (0, BTreeSet::new());
     for member in members {
         equations += required(member.len());

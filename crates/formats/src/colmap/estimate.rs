@@ -22,24 +22,11 @@ pub struct Estimate {
     pub angle: Option<f64>,
     /// The part of the motion along the second camera's axis, from 0 to 1.
     pub forward: Option<f64>,
-    /// The direction of the second image as the first sees it, and of the first as the second does;
-    /// of length 1.
-    pub towards: Option<[[f64; 3]; 2]>,
     /// The rotation that takes directions of the first image to those of the second, by rows.
     pub rotation: Option<[[f64; 3]; 3]>,
 }
 
 impl Estimate {
-    /// The direction of the other image as one of the two sees it.
-    pub fn towards(&self, from: u32) -> Option<[f64; 3]> {
-        let [first, second] = self.towards?;
-        Some(if from == self.images[0] {
-            first
-        } else {
-            second
-        })
-    }
-
     /// Whether the two images were taken at one place, as far as is known: they have no fundamental matrix.
     /// The same holds of degenerate pairs, watermarks and several motions. Rays judge the pairs whose
     /// matches a homography explains.
@@ -68,7 +55,6 @@ pub fn estimate(views: &TwoViews) -> Estimate {
         config: views.config,
         angle: None,
         forward: None,
-        towards: None,
         rotation: None,
     };
     let stored = views.pose.map(|(q, t)| Pose {
@@ -79,12 +65,8 @@ pub fn estimate(views: &TwoViews) -> Estimate {
     let Some(pose) = stored.or_else(of_essential) else {
         return unknown;
     };
-    let length = dot(pose.translation, pose.translation).sqrt();
-    let forward = pose.translation[2].abs() / length;
-    let second = pose.translation.map(|x| x / length);
-    let first = [0, 1, 2].map(|j| -(0..3).map(|i| pose.rotation[i][j] * second[i]).sum::<f64>());
+    let forward = pose.translation[2].abs() / dot(pose.translation, pose.translation).sqrt();
     Estimate {
-        towards: forward.is_finite().then_some([first, second]),
         forward: forward.is_finite().then_some(forward),
         angle: median_angle(&pose, &views.matches),
         rotation: Some(pose.rotation),
@@ -219,14 +201,6 @@ mod tests {
                 "{found:?} {angles:?}"
             );
             assert!((found.forward.unwrap() - forward).abs() < 1e-9, "{found:?}");
-            // The second camera stands at -R^T t, and sees the first at t.
-            let length = (9.0f64 + 0.04 + 0.36).sqrt();
-            let [first, second] = found.towards.unwrap();
-            for k in 0..3 {
-                let centre = -(0..3).map(|i| rotation[i][k] * t[i]).sum::<f64>();
-                assert!((first[k] - centre / length).abs() < 1e-9, "{found:?}");
-                assert!((second[k] - t[k] / length).abs() < 1e-9, "{found:?}");
-            }
         }
         // Nothing is known without a pose.
         assert_eq!(estimate(&TwoViews::default()).angle, None);

@@ -21,9 +21,8 @@ pub struct ListOptions {
 impl ListOptions {
     /// Whether a pair with so many matches does not count.
     pub(crate) fn weighs_less(&self, matches: u64) -> bool {
-        let weight = matches.to_string().parse::<Decimal>();
         let least = self.min_weight.as_ref();
-        least.is_some_and(|least| weight.is_ok_and(|weight| weight < *least))
+        least.is_some_and(|least| least.is_above(&matches.to_string()) == Ok(true))
     }
 }
 

@@ -5,7 +5,7 @@
 
 use std::collections::HashSet;
 
-use super::names::{are_alike, is_copy, is_image, shape};
+use super::names::{are_alike, is_image, shape};
 use super::refusal::Refusal;
 
 /// So many of the first pairs are looked at, in lists of any length.
@@ -186,18 +186,15 @@ impl List<'_> {
             return Some("three lines of three numbers that are a symmetric matrix");
         }
         let ends: HashSet<u32> = pairs.iter().flat_map(|&(a, b)| [a, b]).collect();
-        let here: HashSet<u32> = lines.iter().flat_map(|&[a, b, _]| [a, b]).collect();
-        let thirds: HashSet<u32> = lines.iter().map(|line| line[2]).collect();
-        let both = pairs.iter().flat_map(|&(a, b)| [(a, b), (b, a)]);
-        let both: HashSet<(u32, u32)> = both.collect();
-        let count = |is: &dyn Fn(&[u32; 3]) -> bool| lines.iter().filter(|line| is(line)).count();
-        let closed = count(&|&[a, b, c]| both.contains(&(a, c)) || both.contains(&(b, c)));
         let next = ends.iter().max().map_or(0, |&end| end.saturating_add(1));
-        let known = count(&|&[_, _, c]| ends.contains(&c) || c == next);
-        let all = count(&|&[a, b, c]| a != c && b != c) == lines.len();
-        let closes = pairs.len() <= FEW || 4 * closed >= lines.len();
-        (all && closes && 2 * thirds.len() >= here.len() && 4 * known >= 3 * lines.len())
-            .then_some("the third numbers are labels, too: triangles, perhaps")
+        let known = |c: &u32| ends.contains(c) || *c == next;
+        let thirds: HashSet<u32> = lines.iter().map(|line| line[2]).collect();
+        let labels = lines.iter().filter(|line| known(&line[2])).count();
+        let are_apart = lines.iter().all(|&[a, b, c]| a != c && b != c);
+        (are_apart
+            && 2 * thirds.len() >= ends.len().min(lines.len())
+            && 4 * labels >= 3 * lines.len())
+        .then_some("the third numbers are labels, too: triangles, perhaps")
     }
 
     fn of_names(&self, pairs: &[(u32, u32)], labels: &[&str]) -> Option<&'static str> {
@@ -210,9 +207,6 @@ impl List<'_> {
         let name = |end: u32| labels[end as usize];
         let images = all.iter().all(|&end| is_image(name(end)));
         let single = firsts.len() == pairs.len() && seconds.len() == pairs.len() && pairs.len() > 1;
-        if images && shared == 0 && pairs.iter().all(|&(a, b)| is_copy(name(a), name(b))) {
-            return Some("each name is that of the other and an addition: copies or masks");
-        }
         if let (true, &[(a, b)]) = (images && self.width < 9, pairs) {
             return (!are_alike(name(a), name(b)))
                 .then_some("one line of two images in two folders, or of two kinds");

@@ -61,9 +61,6 @@ pub enum Reading {
     Strict,
     /// As an edge list: the first two fields of a line are a pair, a single one is a node.
     Lenient,
-    /// As lines of so many fields, a pair and numbers, without a head: the file is known to be
-    /// written so.
-    Columns(usize),
 }
 
 /// Reads a list that begins with `head`, which is all of it if `whole`: the graph, its labels, and notes
@@ -227,25 +224,23 @@ impl Collector {
         }
         self.kinds.lengths = true;
         match self.layout.width {
-            None => self.parts::<true>(text, ignored),
-            Some(2) => {
-                self.parts::<true>(text, |further| line_end(further).map(|rest| (false, rest)))
-            }
-            Some(width) => self.parts::<false>(text, |further| {
+            None => self.parts(text, ignored),
+            Some(2) => self.parts(text, |further| line_end(further).map(|rest| (false, rest))),
+            Some(width) => self.parts(text, |further| {
                 further_numbers(further, width).map(|(_, rest)| (false, rest))
             }),
         }
     }
 
     /// Takes in plain lines at the start of a text, read on all cores, and returns what follows them.
-    fn parts<'a, const BARE: bool>(
+    fn parts<'a>(
         &mut self,
         text: &'a [u8],
         end: impl Fn(&'a [u8]) -> plain::End<'a> + Sync,
     ) -> &'a [u8] {
         let mut buffers = std::mem::take(&mut self.buffers);
         let mut length = 0;
-        plain::read_parts::<BARE>(text, self.trusted, &mut buffers, end, |plain| {
+        plain::read_parts(text, self.trusted, &mut buffers, end, |plain| {
             self.line += plain.pairs.len() as u64;
             self.lines_with_more += plain.with_more;
             self.pairs.extend_from_slice(&plain.pairs);
@@ -357,13 +352,13 @@ impl Collector {
                 self.kind(&field.text(line))?;
             }
         }
-        let numbers = match (self.reading, self.layout.head) {
-            (Reading::Columns(_), _) | (Reading::Strict, Head::None) => &fields[2..],
-            _ => return Ok(()),
-        };
-        if self.layout.attributes.is_some() {
+        if self.reading != Reading::Strict
+            || self.layout.head != Head::None
+            || self.layout.attributes
+        {
             return Ok(());
         }
+        let numbers = &fields[2..];
         let is_number = |field: &Field| match self.layout.separator {
             // Where semicolons separate, commas are points.
             Separator::Byte(b';') => is_number(field.raw(line).replace(',', ".").as_bytes()),
@@ -377,8 +372,7 @@ impl Collector {
             let what = format!("field {}, `{}`, is no number", at + 3, shown(&field));
             return Err(Refusal::lines(what).into());
         }
-        let is_bare = self.reading == Reading::Strict && self.layout.head == Head::None;
-        match is_bare && self.pairs.len() < FIRST_LINES && !poses::are(line, numbers) {
+        match self.pairs.len() < FIRST_LINES && !poses::are(line, numbers) {
             true => Err(Refusal::lines(poses::MISSING).into()),
             false => Ok(()),
         }
@@ -426,14 +420,11 @@ impl Collector {
             Separator::Byte(b';') => given.replace(',', "."),
             _ => given.into_owned(),
         };
-        let weight = given.parse::<Decimal>();
-        let weight = weight.map_err(|_| {
+        least.is_above(&given).map_err(|_| {
             let (column, given) = (column + 1, shown(&given));
-            Refusal::columns(format!(
-                "--min-weight: field {column}, `{given}`, is no number"
-            ))
-        })?;
-        Ok(weight < *least)
+            let what = format!("--min-weight: field {column}, `{given}`, is no number");
+            Refusal::columns(what).into()
+        })
     }
 
     /// The two labels as ends of a pair, in the meaning that `pairs` has then.
@@ -483,7 +474,6 @@ impl Collector {
             width: self.layout.width.unwrap_or(2),
         };
         match self.layout.head {
-            Head::None if matches!(self.reading, Reading::Columns(_)) => None,
             Head::None => {
                 let commented = self.layout.commented.as_ref().map(|names| {
                     let what = "the comment above the lines names their columns, and no pair";
@@ -507,36 +497,14 @@ impl Collector {
             return Ok(None);
         };
         let shown = self.layout.names.as_deref().map(head).unwrap_or_default();
-        let head_or_pair = || {
-            let what = "may be a head, and it looks like the labels below";
-            let refusal = Refusal::odd("first", &shown, what);
-            Err(Place::Line(line).fault(refusal.into()))
-        };
-        let asked = self.layout.head != Head::Line;
-        let is_label = labels.iter().any(|label| self.is_known(label));
-        if is_label && !asked {
-            // Names that are labels below are those of a pair.
-            let names = self.labels().unwrap_or_default();
-            // Below a head names have blanks without quotes.
-            let free = |name: &&str| name.contains([' ', '\t', ',']) && !is_image(name);
-            let is_table = self.layout.ends != [0, 1] || self.layout.width != Some(2);
-            if is_table || names.iter().any(free) {
-                return head_or_pair();
-            }
-            if let Some(number) = names.iter().find(|name| is_number(name.as_bytes())) {
-                return Err(Place::Line(line).fault(mixed(number, false)));
-            }
-            self.layout.head = Head::None;
-            self.layout.names = None;
-            let taken = self.nodes([&labels[0], &labels[1]]);
-            let [a, b] = taken.map_err(|problem| Place::Line(line).fault(problem))?;
-            self.pairs.insert(0, (a, b));
-            return Ok(None);
-        }
         let shapes = labels.each_ref().map(|label| names::shape(label));
         let is_like = |name: &&str| shapes.contains(&names::shape(name));
-        if !asked && self.labels().is_some_and(|names| names.iter().any(is_like)) {
-            return head_or_pair();
+        let is_label = labels.iter().any(|label| self.is_known(label));
+        let is_like = || self.labels().is_some_and(|names| names.iter().any(is_like));
+        if self.layout.head == Head::Line && (is_label || is_like()) {
+            let what = "may be a head, and it looks like the labels below";
+            let refusal = Refusal::odd("first", &shown, what);
+            return Err(Place::Line(line).fault(refusal.into()));
         }
         Ok(Some(format!("the first line is a head: {shown}")))
     }

@@ -56,11 +56,6 @@ pub(super) fn is_pair(first: &str, second: &str) -> bool {
         || word(&first, &second).is_some_and(|word| is_among(&word, WORDS))
 }
 
-/// Whether two marks alone tell these names from each other, whatever is between them.
-pub(super) fn are_marked(first: &str, second: &str) -> bool {
-    word(&plain(first), &plain(second)).is_some()
-}
-
 /// Whether a name of a pair says nothing of images or nodes: files are copied from a source to a target.
 pub(super) fn is_general(first: &str) -> bool {
     ["source", "src", "from", "i"].contains(&&*plain(first))
@@ -107,23 +102,17 @@ pub(super) fn shape(label: &str) -> String {
     }
 }
 
-/// The folder, the name and the ending of a file.
-fn parts(path: &str) -> [&str; 3] {
-    let (folder, file) = path.rsplit_once(['/', '\\']).unwrap_or(("", path));
-    let (stem, ending) = file.rsplit_once('.').unwrap_or((file, ""));
-    [folder, stem, ending]
-}
-
-/// Whether two names of files are those of one thing and of its mask, copy or depths.
-pub(super) fn is_copy(first: &str, second: &str) -> bool {
-    let ([.., first, _], [.., second, _]) = (parts(first), parts(second));
-    first.contains(second) || second.contains(first)
-}
-
 /// Whether two names of images are in one folder and end alike.
 pub(super) fn are_alike(first: &str, second: &str) -> bool {
-    let ([folder, _, ending], [other_folder, _, other_ending]) = (parts(first), parts(second));
-    folder == other_folder && ending == other_ending
+    let folder_and_ending = |path: &'_ str| {
+        let (folder, file) = path.rsplit_once(['/', '\\']).unwrap_or(("", path));
+        [
+            folder,
+            file.rsplit_once('.').map_or("", |(_, ending)| ending),
+        ]
+        .map(str::to_owned)
+    };
+    folder_and_ending(first) == folder_and_ending(second)
 }
 
 #[cfg(test)]
@@ -167,7 +156,6 @@ mod tests {
     #[test]
     fn names_of_images() {
         assert!(is_image("a/b.JPG") && !is_image("jpg") && !is_image("a.txt"));
-        assert!(is_copy("a/im1.jpg", "mask/im1_mask.png") && !is_copy("im1.jpg", "im2.jpg"));
         assert!(are_alike("a/l.png", "a/r.png") && !are_alike("a/l.png", "b/r.png"));
         assert_eq!(shape("cam12_3"), "cam0_0");
         assert_eq!(shape("a"), shape("b"));

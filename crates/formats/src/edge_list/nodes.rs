@@ -2,7 +2,6 @@
 
 use std::collections::HashMap;
 use std::fmt::Write;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 use rayon::prelude::*;
 
@@ -24,7 +23,7 @@ pub(crate) fn number_integers(pairs: &mut [(u32, u32)], singles: &[u32]) -> (Lab
     // The bitmap takes 3/16 of a byte for every possible value: for values much
     // larger than their number it would outgrow the pairs.
     if largest as usize / 32 > given + 1024 {
-        return number_far_apart(pairs, singles, largest);
+        return number_far_apart(pairs, singles);
     }
     let words = occurring(pairs, singles, largest);
     let mut count = 0;
@@ -74,60 +73,26 @@ pub(crate) fn number_integers(pairs: &mut [(u32, u32)], singles: &[u32]) -> (Lab
 
 /// Which of the integers up to the largest occur, a bit for each.
 fn occurring(pairs: &[(u32, u32)], singles: &[u32], largest: u32) -> Vec<u64> {
-    let words: Vec<AtomicU64> = (0..=largest / 64).map(|_| AtomicU64::new(0)).collect();
-    let mark = |value: u32| {
-        let (word, bit) = (&words[value as usize / 64], 1 << (value % 64));
-        // Most have been marked before, and reading costs less.
-        if word.load(Ordering::Relaxed) & bit == 0 {
-            word.fetch_or(bit, Ordering::Relaxed);
-        }
-    };
-    pairs.par_chunks(SHARE).for_each(|share| {
-        // Neighbours on the list mostly have their first ends in common.
-        let mut last = None;
-        for &(a, b) in share {
-            if last.replace(a) != Some(a) {
-                mark(a);
-            }
-            mark(b);
-        }
-    });
-    singles.iter().copied().for_each(mark);
-    words.into_iter().map(AtomicU64::into_inner).collect()
+    let mut words = vec![0u64; largest as usize / 64 + 1];
+    let ends = pairs.iter().flat_map(|&(a, b)| [a, b]);
+    for value in ends.chain(singles.iter().copied()) {
+        words[value as usize / 64] |= 1 << (value % 64);
+    }
+    words
 }
 
-/// As [`number_integers`], for integers that lie far apart, `largest` being the
-/// largest: sorts them and looks each up where its leading bits begin, which
-/// stays in the processor's caches where a hash table would not.
-fn number_far_apart(pairs: &mut [(u32, u32)], singles: &[u32], largest: u32) -> (Labels, usize) {
+/// As [`number_integers`], for integers that lie far apart: sorts them and looks each up.
+fn number_far_apart(pairs: &mut [(u32, u32)], singles: &[u32]) -> (Labels, usize) {
     let ends = pairs.iter().flat_map(|&(a, b)| [a, b]);
     let mut values: Vec<u32> = ends.chain(singles.iter().copied()).collect();
-    values.sort_unstable();
+    values.par_sort_unstable();
     values.dedup();
-    values.shrink_to_fit();
-    let mut shift = 0;
-    while (largest >> shift) as usize > 2 * values.len() {
-        shift += 1;
-    }
-    // starts[k] is how many values have leading bits below k.
-    let mut starts = vec![0u32; (largest >> shift) as usize + 2];
-    for value in &values {
-        starts[(value >> shift) as usize + 1] += 1;
-    }
-    let mut sum = 0;
-    for start in &mut starts {
-        sum += *start;
-        *start = sum;
-    }
-    let rank = |value: u32| {
-        let at = (value >> shift) as usize;
-        let alike = &values[starts[at] as usize..starts[at + 1] as usize];
-        starts[at] + alike.partition_point(|&other| other < value) as u32
-    };
-    for (a, b) in pairs {
-        *a = rank(*a);
-        *b = rank(*b);
-    }
+    pairs.par_chunks_mut(SHARE).for_each(|share| {
+        for (a, b) in share {
+            let rank = |value: u32| values.partition_point(|&other| other < value) as u32;
+            (*a, *b) = (rank(*a), rank(*b));
+        }
+    });
     let nodes = values.len();
     let values = values.into_iter().map(u64::from).collect();
     (integers(values), nodes)

@@ -32,14 +32,9 @@ pub(super) struct Plain {
 /// ignored, and the text behind the line.
 pub(super) type End<'a> = Option<(bool, &'a [u8])>;
 
-/// Reads plain lines while `end` accepts what follows the pair on each. `BARE`: it accepts a line
-/// feed there, and does not mind which pair that is. Memory that `plain` has is used again.
+/// Reads plain lines while `end` accepts what follows the pair on each. Memory that `plain` has is used again.
 #[inline]
-pub(super) fn read<'a, const BARE: bool>(
-    text: &'a [u8],
-    plain: &mut Plain,
-    mut end: impl FnMut(&'a [u8], u32, u32) -> End<'a>,
-) {
+pub(super) fn read<'a>(text: &'a [u8], plain: &mut Plain, end: impl Fn(&'a [u8]) -> End<'a>) {
     let Plain {
         pairs,
         with_more,
@@ -51,14 +46,11 @@ pub(super) fn read<'a, const BARE: bool>(
     *with_more = 0;
     let mut left = text;
     loop {
-        if BARE {
-            left = bare_lines(left, pairs);
-        }
         // A pair of a label with itself is for the general way, before `end` takes note of it.
         let Some((a, b, further)) = pair(left).filter(|(a, b, _)| a != b) else {
             break;
         };
-        match end(further, a, b) {
+        match end(further) {
             Some((more, rest)) if left.len() - rest.len() <= LINE_LIMIT => {
                 pairs.push((a, b));
                 *with_more += u64::from(more);
@@ -72,7 +64,7 @@ pub(super) fn read<'a, const BARE: bool>(
 
 /// The same on all cores, where `end` looks at one line alone; each batch of parts of the text is
 /// given to `take`, in order. `trusted` is how much has been plain before it.
-pub(super) fn read_parts<'a, const BARE: bool>(
+pub(super) fn read_parts<'a>(
     mut text: &'a [u8],
     trusted: usize,
     parts: &mut Vec<Plain>,
@@ -89,7 +81,7 @@ pub(super) fn read_parts<'a, const BARE: bool>(
         pieces
             .par_iter()
             .zip(&mut *parts)
-            .for_each(|(piece, plain)| read::<BARE>(piece, plain, |further, _, _| end(further)));
+            .for_each(|(piece, plain)| read(piece, plain, &end));
         for (plain, piece) in parts.iter().zip(pieces) {
             take(plain);
             if plain.length < piece.len() {
@@ -123,86 +115,6 @@ fn split(text: &[u8], count: usize) -> Vec<&[u8]> {
     pieces
 }
 
-/// Pairs of the most common lines at the start of a text, two integers of one to seven digits with
-/// one separator between them and the line feed; returns what follows these lines.
-#[inline]
-fn bare_lines<'a>(text: &'a [u8], pairs: &mut Vec<(u32, u32)>) -> &'a [u8] {
-    let mut left = text;
-    let mut first = FirstField::default();
-    while let Some(start) = left.first_chunk::<24>() {
-        // Lists are mostly sorted: then neighbours have their first fields in common.
-        let eight = *start.first_chunk().unwrap_or(&[0; 8]);
-        if !first.is_before(eight) {
-            match FirstField::of(eight) {
-                Some(another) => first = another,
-                None => break,
-            }
-        }
-        let second = Digits::of(*start[first.length..].first_chunk().unwrap_or(&[0; 8]));
-        let end = first.length + second.count;
-        let zeros = (start[first.length] == b'0') & (second.count > 1);
-        if !(1..8).contains(&second.count) || zeros || start[end] != b'\n' {
-            break;
-        }
-        let (a, b) = (first.value, second.value());
-        if a == b {
-            break;
-        }
-        pairs.push((a, b));
-        left = &left[end + 1..];
-    }
-    left
-}
-
-/// An integer of one to seven digits and the separator behind it.
-#[derive(Clone, Copy)]
-struct FirstField {
-    /// These bytes, and zeros behind them.
-    bytes: u64,
-    /// Ones in place of these bytes.
-    mask: u64,
-    length: usize,
-    value: u32,
-}
-
-impl Default for FirstField {
-    /// Before no text.
-    fn default() -> Self {
-        Self {
-            bytes: 1,
-            mask: 0,
-            length: 0,
-            value: 0,
-        }
-    }
-}
-
-impl FirstField {
-    /// The field that a line begins with. `None` says nothing about the line.
-    #[inline]
-    fn of(eight: [u8; 8]) -> Option<Self> {
-        let digits = Digits::of(eight);
-        if !(1..8).contains(&digits.count) {
-            return None;
-        }
-        let length = digits.count + 1;
-        let mask = u64::MAX >> (64 - 8 * length);
-        let separated = matches!(eight[digits.count], b' ' | b'\t' | b',');
-        (separated && !(eight[0] == b'0' && digits.count > 1)).then(|| Self {
-            bytes: u64::from_le_bytes(eight) & mask,
-            mask,
-            length,
-            value: digits.value(),
-        })
-    }
-
-    /// Whether a line begins with this field.
-    #[inline]
-    fn is_before(&self, eight: [u8; 8]) -> bool {
-        u64::from_le_bytes(eight) & self.mask == self.bytes
-    }
-}
-
 /// Two integers at the start of a line with one separator between them, and what follows.
 #[inline]
 fn pair(text: &[u8]) -> Option<(u32, u32, &[u8])> {
@@ -218,63 +130,13 @@ fn pair(text: &[u8]) -> Option<(u32, u32, &[u8])> {
 /// An integer below 2^32 without leading zeros at the start of `text`.
 #[inline]
 fn small_integer(text: &[u8]) -> Option<(u32, &[u8])> {
-    if let Some(&eight) = text.first_chunk::<8>()
-        && let digits = Digits::of(eight)
-        && (1..8).contains(&digits.count)
-    {
-        if eight[0] == b'0' && digits.count > 1 {
-            return None;
+    let (mut value, mut digits) = (0u64, 0);
+    for byte in text.iter().take(11) {
+        match byte.wrapping_sub(b'0') {
+            digit @ 0..10 => value = 10 * value + u64::from(digit),
+            _ => break,
         }
-        return Some((digits.value(), &text[digits.count..]));
-    }
-    long_integer(text)
-}
-
-/// The digits at the start of eight bytes.
-struct Digits {
-    /// Their values, one a byte, the first one in the lowest; what is behind them is arbitrary.
-    values: u64,
-    count: usize,
-}
-
-impl Digits {
-    #[inline]
-    fn of(eight: [u8; 8]) -> Self {
-        // A byte of `values` is at least 10 unless it was a digit. Adding 118 sets its highest
-        // bit then, or that is set already; a carry only touches the bytes behind it.
-        let values = u64::from_le_bytes(eight) ^ 0x3030_3030_3030_3030;
-        let others = (values.wrapping_add(0x7676_7676_7676_7676) | values) & 0x8080_8080_8080_8080;
-        Self {
-            values,
-            count: others.trailing_zeros() as usize / 8,
-        }
-    }
-
-    /// Their decimal value; there are 1 to 8 of them.
-    #[inline]
-    fn value(&self) -> u32 {
-        // Zeros in front make eight digits of them; then neighbours are joined: to numbers of
-        // two, of four, of eight digits.
-        let ones = self.values << (8 * (8 - self.count));
-        let twos = (ones.wrapping_mul(10) + (ones >> 8)) & 0x00ff_00ff_00ff_00ff;
-        let fours = (twos.wrapping_mul(100) + (twos >> 16)) & 0x0000_ffff_0000_ffff;
-        (fours.wrapping_mul(10_000).wrapping_add(fours >> 32)) as u32
-    }
-}
-
-/// As [`small_integer`], for eight digits and more, and near the end of the text.
-#[cold]
-fn long_integer(text: &[u8]) -> Option<(u32, &[u8])> {
-    let mut value = 0u64;
-    let mut digits = 0;
-    while let Some(digit) = text.get(digits).map(|b| b.wrapping_sub(b'0'))
-        && digit < 10
-    {
-        value = 10 * value + u64::from(digit);
         digits += 1;
-        if digits > 10 {
-            return None;
-        }
     }
     if digits == 0 || (text[0] == b'0' && digits > 1) {
         return None;
@@ -381,49 +243,6 @@ mod tests {
     }
 
     proptest! {
-        /// Eight bytes at once give what one after another gives, whatever follows the digits.
-        #[test]
-        fn eight_bytes_at_once(value: u32, behind in any::<[u8; 8]>()) {
-            let mut text = value.to_string().into_bytes();
-            text.extend(behind);
-            prop_assert_eq!(small_integer(&text), long_integer(&text));
-        }
-
-        /// Bare lines are what the general way makes of them, whether or not they have their first
-        /// fields in common, up to the first line that is not bare.
-        #[test]
-        fn bare_lines_are_plain_pairs(
-            lines in prop::collection::vec(
-                ("|0|7|70|7070707|707070|12345678|070|7x", "[ \t,x]|, ", "[0-9]{0,9}|[1-9][0-9]{0,6}", "[ \r]?"),
-                0..12,
-            ),
-            behind in "[0-9 \n]{0,30}",
-        ) {
-            let line = |(a, separator, b, end): &(String, String, String, String)| {
-                format!("{a}{separator}{b}{end}\n")
-            };
-            let text = lines.iter().map(line).collect::<String>() + &behind;
-            let digits = |field: &str| {
-                (1..8).contains(&field.len()) && field.bytes().all(|b| b.is_ascii_digit())
-                    && (field.len() == 1 || !field.starts_with('0'))
-            };
-            let (mut left, mut expected) = (text.as_bytes(), Vec::new());
-            while let Some((a, b, rest)) = pair(left)
-                && a != b
-                && left.len() >= 24
-                && let Some(behind) = line_end(rest)
-                && let length = left.len() - behind.len()
-                && let Ok(line) = std::str::from_utf8(&left[..length - 1])
-                && line.split([' ', '\t', ',']).all(digits)
-            {
-                expected.push((a, b));
-                left = behind;
-            }
-            let mut found = vec![(7, 8)];
-            prop_assert_eq!(bare_lines(text.as_bytes(), &mut found), left);
-            prop_assert_eq!(&found[1..], expected);
-        }
-
         /// Pieces together are the text, and all but the last end with a line.
         #[test]
         fn pieces(text in "[ab\n]{0,200}", count in 1..20usize) {
@@ -464,7 +283,7 @@ mod tests {
                 with_more: 9,
                 length: 10,
             }];
-            read_parts::<true>(text.as_bytes(), trusted, &mut parts, ignored, take);
+            read_parts(text.as_bytes(), trusted, &mut parts, ignored, take);
             let expected: Vec<_> = (0..stop.min(200_000) as u32).map(|k| (k, k + 1)).collect();
             assert_eq!(pairs, expected);
             assert_eq!(text[length..].is_empty(), stop == 200_000);

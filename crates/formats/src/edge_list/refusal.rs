@@ -24,6 +24,9 @@ const QUOTES: &str =
     "separate all fields by the same character, and put names with blanks or punctuation in quotes";
 const COLUMNS: &str = "name the two columns of the pairs by their names or their numbers from 1, and perhaps \
                        that of the weights (--columns img1,img2,score)";
+/// The remedy for a table that does not say which columns are the pairs.
+const WHICH: &str = "if two of the columns are the ends of pairs, say which by their names or their numbers from 1 \
+                     (--columns img1,img2)";
 const EVEN: &str = "write as many on every line, without numbers of lines (R: row.names = FALSE, pandas: index=False), \
                     and names with blanks in quotes";
 
@@ -58,15 +61,9 @@ impl Refusal {
         Self::new(what, COLUMNS)
     }
 
-    /// Columns that a list without a head does not have, and perhaps those of its pairs.
-    pub(super) fn unnamed(what: impl Into<String>, columns: Option<String>) -> Self {
-        match columns {
-            Some(columns) => Self::new(
-                what,
-                format!("if columns {columns} hold the pairs, say --columns {columns}"),
-            ),
-            None => Self::lines(what),
-        }
+    /// Columns of which none are known as those of pairs.
+    pub(super) fn unnamed(what: impl Into<String>) -> Self {
+        Self::new(what, WHICH)
     }
 
     /// A number of fields that others do not have, of which one is in a line.

@@ -4,9 +4,7 @@
 
 use super::columns::{Column, Columns, ListOptions};
 use super::fields::{Field, Separator, is_number};
-use super::likely::List;
 use super::names::{self, is_image};
-use super::nodes::Index;
 use super::refusal::{self, Refusal, shown};
 use super::{Reading, fields};
 use crate::error::Problem;
@@ -38,7 +36,7 @@ pub(super) struct Layout {
     pub(super) names: Option<Vec<String>>,
     pub(super) head: Head,
     /// Whether attributes follow the names, as networkx writes them.
-    pub(super) attributes: Option<Attributes>,
+    pub(super) attributes: bool,
     /// A comment above the lines that names other columns.
     pub(super) commented: Option<String>,
 }
@@ -59,15 +57,6 @@ pub(super) enum Head {
     Own,
 }
 
-/// What stands in the `{...}` behind the two names of every line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Attributes {
-    /// Nothing, or anything.
-    Any,
-    /// One, `weight`.
-    Weight,
-}
-
 impl Layout {
     /// Whether the first line names the columns.
     pub(super) fn has_line(&self) -> bool {
@@ -78,7 +67,7 @@ impl Layout {
     pub(super) fn is_usual(&self) -> bool {
         self.ends == [0, 1]
             && self.weight.is_none()
-            && self.attributes.is_none()
+            && !self.attributes
             && self.separator != Separator::Byte(b';')
     }
 
@@ -87,23 +76,18 @@ impl Layout {
     /// # Errors
     /// As [`Separator::split`]; attributes that are not where others are.
     pub(super) fn split(&self, line: &str, fields: &mut Vec<Field>) -> Result<(), Problem> {
-        if self.attributes.is_none() {
+        if !self.attributes {
             return self.separator.split(line, fields);
         }
         let (names, attributes) = names_and_attributes(line);
         fields::split(names, fields)?;
         match (fields.len(), attributes) {
-            (0, None) => return Ok(()),
-            (2, Some(_)) => {}
-            _ => return Err(unlike_others()),
+            (0, false) | (2, true) => Ok(()),
+            _ => {
+                let remedy = "mend the line, or write the list with data=False";
+                Err(Refusal::new("two names and `{...}` are expected", remedy).into())
+            }
         }
-        if self.weight.is_some() {
-            let weight = attributes.and_then(weight).ok_or_else(unlike_others)?;
-            // Nothing but brackets and separators follows it.
-            let start = line.rfind(weight).unwrap_or(0);
-            fields.push(Field::plain(start, start + weight.len()));
-        }
-        Ok(())
     }
 
     /// The columns of the pairs, in words.
@@ -122,15 +106,12 @@ impl Layout {
     /// What is left out of every line, in words.
     pub(super) fn ignored(&self) -> Option<String> {
         const SHOWN: usize = 4;
-        match (self.attributes, self.width, &self.names) {
-            (Some(Attributes::Weight), ..) if self.weight.is_none() => {
-                return Some("attributes (weight)".to_owned());
-            }
-            (Some(Attributes::Any), ..) => return Some("attributes".to_owned()),
-            (None, Some(3), None) if self.ends == [0, 1] => {
+        match (self.width, &self.names) {
+            _ if self.attributes => return Some("attributes".to_owned()),
+            (Some(3), None) if self.ends == [0, 1] => {
                 return Some("column 3 (weights?)".to_owned()).filter(|_| self.weight.is_none());
             }
-            (None, Some(width @ (9 | 14)), None) if !matches!(self.head, Head::Asked { .. }) => {
+            (Some(width @ (9 | 14)), None) if !matches!(self.head, Head::Asked { .. }) => {
                 return Some(format!("columns 3 to {width} (relative poses)"));
             }
             _ => {}
@@ -151,28 +132,15 @@ impl Layout {
     }
 }
 
-/// A line without the attributes that others have.
-fn unlike_others() -> Problem {
-    let remedy = "mend the line, or write the list with data=False";
-    Refusal::new("two names and `{...}` are expected", remedy).into()
-}
-
-/// A line before and in its `{...}`, which is its end.
-fn names_and_attributes(line: &str) -> (&str, Option<&str>) {
+/// A line before its `{...}`, which is its end, and whether it has one.
+fn names_and_attributes(line: &str) -> (&str, bool) {
     let separates = [' ', '\t', ','];
     let end = line.trim_end_matches(separates);
-    let inner = end.strip_suffix('}').and_then(|text| {
-        let at = text.find('{')?;
-        let names = text[..at].strip_suffix(separates)?;
-        Some((names.trim_end_matches(separates), Some(&text[at + 1..])))
+    let names = end.strip_suffix('}').and_then(|text| {
+        let names = text[..text.find('{')?].strip_suffix(separates)?;
+        Some(names.trim_end_matches(separates))
     });
-    inner.unwrap_or((line, None))
-}
-
-/// The number in `'weight': N`, if attributes are that alone.
-fn weight(attributes: &str) -> Option<&str> {
-    let value = attributes.trim().strip_prefix("'weight':")?.trim();
-    is_number(value.as_bytes()).then_some(value)
+    names.map_or((line, false), |names| (names, true))
 }
 
 /// The first lines of a text with fields, and the comment right above them.
@@ -235,38 +203,6 @@ impl<'a> Sample<'a> {
         !below.is_empty() && has_words && (0..first.len()).any(headed)
     }
 
-    /// The columns of a table that are likely to be pairs, by name or number: the two that marks alone tell
-    /// from each other, else the only two, which hold names.
-    fn columns(&self, separator: Separator) -> Option<String> {
-        const MOST: usize = 16;
-        let (cells, headed) = (self.cells(separator), self.has_head(separator));
-        let below = cells.get(usize::from(headed)..)?;
-        let names = cells.first()?;
-        if below.len() < 2 || below.iter().any(|line| line.len() != names.len()) {
-            return None;
-        }
-        let marked = |a: usize, b: usize| headed && names::are_marked(&names[a], &names[b]);
-        let two = (0..names.len().min(MOST)).flat_map(|b| (0..b).map(move |a| (a, b)));
-        let likely = two.filter_map(|(a, b)| {
-            let is_marked = marked(a, b);
-            are_likely(below, [a, b], headed, is_marked).then_some((is_marked, [a, b]))
-        });
-        let (marked, others): (Vec<_>, Vec<_>) = likely.partition(|(is_marked, _)| *is_marked);
-        let found = match (&marked[..], &others[..]) {
-            ([(_, one)], _) | ([], [(_, one)]) => one,
-            _ => return None,
-        };
-        let called = found.map(|column| match headed {
-            true => names[column].clone(),
-            false => (column + 1).to_string(),
-        });
-        let is_clear = |name: &String| {
-            let once = names.iter().filter(|other| *other == name).count() == 1;
-            once && !name.is_empty() && !name.contains([',', ' ', '\'', '"'])
-        };
-        (!headed || called.iter().all(is_clear)).then(|| called.join(","))
-    }
-
     /// How the lines are cut: by a semicolon, a tab or a comma that cuts all into as many fields, else
     /// by the first of these that the first line has, else by blanks.
     fn separator(&self) -> Separator {
@@ -287,35 +223,6 @@ impl<'a> Sample<'a> {
         even.or_else(|| candidates.into_iter().find(cuts))
             .unwrap_or(Separator::Blank)
     }
-}
-
-/// Whether two columns may be pairs: nothing speaks against it. Integers need marks in the head, and without
-/// one labels have to be images.
-fn are_likely(lines: &[Vec<String>], [a, b]: [usize; 2], headed: bool, marked: bool) -> bool {
-    let number = |line: &Vec<String>| Some((line[a].parse().ok()?, line[b].parse().ok()?));
-    let numbers: Option<Vec<(u32, u32)>> = lines.iter().map(number).collect();
-    let mut index = Index::default();
-    let ends = |line: &Vec<String>| Some((index.node(&line[a])?, index.node(&line[b])?));
-    let names: Vec<(u32, u32)> = lines.iter().filter_map(ends).collect();
-    let labels = index.labels();
-    let labels: Vec<&str> = labels.iter().map(|label| &**label).collect();
-    let are_names = labels.iter().all(|label| match headed {
-        true => !label.is_empty() && !is_number(label.as_bytes()),
-        false => is_image(label),
-    });
-    let width = if lines[0].len() == 3 { 3 } else { 2 };
-    let third = |line: &Vec<String>| line[3 - a - b].parse().ok();
-    let thirds = lines.iter().filter(|_| width == 3).map_while(third);
-    let pairs = numbers.as_ref().unwrap_or(&names);
-    let list = List {
-        pairs,
-        labels: numbers.is_none().then_some(&labels[..]),
-        thirds: &thirds.collect::<Vec<u32>>(),
-        width,
-        ..List::default()
-    };
-    let are_labels = are_names || marked && numbers.is_some();
-    are_labels && pairs.iter().all(|(a, b)| a != b) && list.doubt().is_none()
 }
 
 /// Whether the last field of a line is empty.
@@ -370,19 +277,9 @@ pub(super) fn layout(
         layout.head = Head::Own;
         return Ok(layout);
     }
-    if options.columns.is_none()
-        && let (_, Some(_)) = names_and_attributes(first)
-    {
-        let weighs = |line: &&str| names_and_attributes(line).1.and_then(weight).is_some();
-        let all = sample.lines.iter().all(weighs);
-        layout.attributes = Some(match all {
-            true => Attributes::Weight,
-            false => Attributes::Any,
-        });
+    if options.columns.is_none() && names_and_attributes(first).1 {
+        layout.attributes = true;
         layout.width = Some(2);
-        if all && options.min_weight.is_some() {
-            (layout.width, layout.weight) = (Some(3), Some(2));
-        }
         return weighed(layout, options);
     }
     let names = texts(first, layout.separator)?;
@@ -397,11 +294,7 @@ pub(super) fn layout(
             .find(|words| words.len() == names.len())
     });
     if let Some(columns) = &options.columns {
-        return weighed(asked(layout, &sample, columns, names, comment)?, options);
-    }
-    if let Reading::Columns(width) = reading {
-        layout.width = Some(width);
-        return weighed(layout, options);
+        return weighed(asked(layout, columns, names)?, options);
     }
     let by_line = names::pairs_among(&names);
     let by_comment = comment.as_ref().map(|words| names::pairs_among(words));
@@ -439,19 +332,17 @@ pub(super) fn layout(
         }
         layout.width = layout.width.filter(|_| options.min_weight.is_some());
     } else if layout.head == Head::None {
-        let headed = sample.has_head(layout.separator);
-        if headed || !WIDTHS.contains(&names.len()) {
-            let what = match headed {
-                true => format!(
-                    "the head `{}` names no two columns with images or nodes",
-                    refusal::head(&names)
-                ),
-                false => format!(
-                    "the line has {}, and a list without a head has 2, 3 with a number, or 9 or 14 with a relative pose",
-                    counted(names.len(), "field")
-                ),
-            };
-            return Err(Refusal::unnamed(what, sample.columns(layout.separator)).into());
+        if sample.has_head(layout.separator) {
+            let what = "names no two columns with images or nodes";
+            return Err(
+                Refusal::unnamed(format!("the head `{}` {what}", refusal::head(&names))).into(),
+            );
+        }
+        if !WIDTHS.contains(&names.len()) {
+            let what =
+                "a list without a head has 2, 3 with a number, or 9 or 14 with a relative pose";
+            let found = counted(names.len(), "field");
+            return Err(Refusal::unnamed(format!("the line has {found}, and {what}")).into());
         }
     }
     weighed(layout, options)
@@ -469,26 +360,16 @@ fn is_cut(sample: &Sample, separator: Separator) -> bool {
 }
 
 /// The layout that the user names.
-fn asked(
-    mut layout: Layout,
-    sample: &Sample,
-    columns: &Columns,
-    first: Vec<String>,
-    comment: Option<Vec<String>>,
-) -> Result<Layout, Problem> {
+fn asked(mut layout: Layout, columns: &Columns, names: Vec<String>) -> Result<Layout, Problem> {
     let wanted = || columns.ends.iter().chain(&columns.weight);
     let by_name = wanted().any(|column| matches!(column, Column::Name(_)));
-    let place = |column: &Column, names: &[String]| match column {
+    let line = by_name || !names::pairs_among(&names).is_empty();
+    let place = |column: &Column| match column {
         Column::Place(place) => Some(*place).filter(|place| *place < names.len()),
         Column::Name(name) => names.iter().position(|other| other.trim() == &**name),
     };
-    let has = |names: &[String]| wanted().all(|column| place(column, names).is_some());
-    // The names may stand in a comment above the lines.
-    let in_comment = by_name && !has(&first) && comment.as_deref().is_some_and(has);
-    let is_head = !names::pairs_among(&first).is_empty();
-    let names = comment.filter(|_| in_comment).unwrap_or(first);
     let place = |column: &Column| {
-        place(column, &names).ok_or_else(|| {
+        place(column).ok_or_else(|| {
             let there = match by_name {
                 true => names.join(", "),
                 false => format!("{} columns", names.len()),
@@ -499,14 +380,7 @@ fn asked(
     };
     layout.ends = [place(&columns.ends[0])?, place(&columns.ends[1])?];
     layout.weight = columns.weight.as_ref().map(place).transpose()?;
-    let image = |line: &Vec<String>, end: usize| line.get(end).is_some_and(|label| is_image(label));
-    let images = |line: &Vec<String>| layout.ends.iter().all(|&end| image(line, end));
-    let cells = sample.cells(layout.separator);
-    let above = cells.split_first().is_some_and(|(first, below)| {
-        !images(first) && below.len() > 1 && below.iter().all(images)
-    });
-    let line = !in_comment && (by_name || is_head || above);
-    layout.names = Some(names).filter(|_| line || in_comment);
+    layout.names = Some(names).filter(|_| line);
     layout.head = Head::Asked { line };
     Ok(layout)
 }

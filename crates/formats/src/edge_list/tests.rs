@@ -129,7 +129,10 @@ fn what_is_no_bare_list_is_refused() {
         ("0 1\n1 2\n1 3\n2 3\n", "as pandas writes them"),
         ("0,1,2\n0,1,5\n0,2,6\n1,2,9\n", "as pandas writes them"),
         ("a.jpg cat\nb.jpg dog\nc.jpg cat\n", "hardly any label"),
-        ("a.jpg a_mask.png\nb.jpg b_mask.png\n", "copies or masks"),
+        (
+            "a.jpg a_mask.png\nb.jpg b_mask.png\n",
+            "no label is in two lines",
+        ),
         (
             "old1.jpg new5.jpg\nold2.jpg new6.jpg\n",
             "no label is in two lines",
@@ -213,6 +216,10 @@ fn heads() {
         ),
         ("source,target\n1,\n", "there is an empty field"),
         (
+            "cam1 cam2\ncam2 cam3\ncam1 cam3\n",
+            "may be a head, and it looks like the labels",
+        ),
+        (
             "cam1 cam2\ncam5 cam7\ncam5 cam8\n",
             "may be a head, and it looks like the labels",
         ),
@@ -220,12 +227,9 @@ fn heads() {
         let found = refusal(text.as_bytes());
         assert!(found.contains(phrase), "{text}: {found}");
     }
-    // Names that are labels below are those of a pair.
-    let (edges, ..) = listed(b"cam1 cam2\ncam2 cam3\ncam1 cam3\n", Reading::Strict);
-    assert_eq!(edges.len(), 3);
 }
 
-/// Other columns than those of a head are asked for, and are suggested if they alone hold images.
+/// Other columns than those of a head are asked for; a refusal says how.
 #[test]
 fn columns() {
     let with = |text: &str, columns: Option<&str>, least: Option<&str>| {
@@ -241,10 +245,12 @@ fn columns() {
     };
     let table = "id,left,n,right\n7,a.jpg,30,b.jpg\n8,b.jpg,5,c.jpg\n9,a.jpg,40,c.jpg\n";
     let found = with(table, None, None).unwrap_err();
-    assert!(found.contains("say --columns left,right"), "{found}");
-    for columns in ["left,right", "2,4"] {
-        assert_eq!(with(table, Some(columns), None), Ok((3, 3)), "{columns}");
-    }
+    assert!(found.contains("(--columns img1,img2)"), "{found}");
+    assert_eq!(with(table, Some("left,right"), None), Ok((3, 3)));
+    let head = with(table, Some("2,4"), None).unwrap_err();
+    assert!(head.contains("the first line, left right, may be a head"));
+    let bare = table.split_once('\n').unwrap().1;
+    assert_eq!(with(bare, Some("2,4"), None), Ok((3, 3)));
     assert_eq!(with(table, Some("left,right,n"), Some("30")), Ok((3, 2)));
     assert!(
         with(table, Some("left,nothing"), None)
@@ -264,50 +270,6 @@ fn columns() {
     let apart = with(words, Some("1,2"), None).unwrap_err();
     assert!(apart.contains("may be a head"), "{apart}");
     assert_eq!(with(words, Some("foo,bar"), None), Ok((3, 2)));
-}
-
-/// The two columns that a refusal names are those of the pairs, or it names none.
-#[test]
-fn suggested_columns() {
-    for (text, columns) in [
-        ("left,right,score\na,b,7\nb,c,8\na,c,9\n", "left,right"),
-        ("left,right\n1,2\n2,3\n1,3\n", "left,right"),
-        ("left right\na.jpg b.jpg\nb.jpg c.jpg\n", "left,right"),
-        (
-            "id;item1;item2;n\n0;1;2;50\n1;2;3;60\n2;1;3;70\n",
-            "item1,item2",
-        ),
-        ("query_name,db_name,kind\na,b,x\nb,c,y\na,c,x\n", ""),
-        (
-            "photo,other,n\na.jpg,b.jpg,5\nb.jpg,c.jpg,6\n",
-            "photo,other",
-        ),
-        ("V1,V2\n1,2\n2,3\n1,3\n", "V1,V2"),
-        ("a.jpg b.jpg 1 2 3\na.jpg c.jpg 1 2 3\n", "1,2"),
-        // Tables of something else, of several twos, of triangles.
-        ("camera,point\n0,1\n0,2\n1,2\n", ""),
-        ("image,mask\na.jpg,a_mask.png\nb.jpg,b_mask.png\n", ""),
-        ("id1,id2,id3\n0,1,2\n0,2,3\n0,3,4\n", ""),
-        ("x1,y1,x2,y2\n10,4,17,9\n30,2,36,8\n50,7,58,9\n", ""),
-        ("left,right,score\n1,1,7\n2,2,8\n3,3,9\n", ""),
-        ("1 2 3 4\n2 3 4 5\n1 3 2 2\n", ""),
-    ] {
-        let found = refusal(text.as_bytes());
-        match columns {
-            "" => assert!(!found.contains("--columns"), "{text}: {found}"),
-            _ => {
-                let says = format!("if columns {columns} hold the pairs, say --columns {columns}");
-                assert!(found.ends_with(&says), "{text}: {found}");
-                let options = ListOptions {
-                    columns: Some(columns.parse().unwrap()),
-                    ..ListOptions::default()
-                };
-                let whole = (text.as_bytes(), true);
-                let read = read_with(text.as_bytes(), whole, Reading::Strict, &options);
-                assert!(read.is_ok(), "{text}: {:?}", read.err());
-            }
-        }
-    }
 }
 
 /// Pairs of a camera with itself: the option that leaves them out is named where the rest is a list.
@@ -355,8 +317,6 @@ fn whoever_knows_better_takes_the_first_two_fields() {
         notes[0].starts_with("the first line, 8 11, may be"),
         "{notes:?}"
     );
-    let found = refused(b"a b\nb c d\n", Reading::Columns(2));
-    assert!(found.starts_with("list.txt:2: the line has 3 fields, and line 1 has 2"));
 }
 
 #[test]

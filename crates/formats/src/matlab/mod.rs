@@ -32,34 +32,11 @@ const MATRIX: u32 = 14;
 const COMPRESSED: u32 = 15;
 /// Deflate codes at most 258 bytes in two bits.
 const DEFLATE_LIMIT: u64 = 1032;
-/// What comes before the values of a variable has fewer bytes.
-const DESCRIPTION: u64 = 1 << 14;
-
-/// Classes of variables by their numbers from 1.
-const CLASSES: [&str; 17] = [
-    "cell array",
-    "structure",
-    "object",
-    "character array",
-    "sparse",
-    "double",
-    "single",
-    "int8",
-    "uint8",
-    "int16",
-    "uint16",
-    "int32",
-    "uint32",
-    "int64",
-    "uint64",
-    "function handle",
-    "opaque object",
-];
+/// Classes of variables.
 const SPARSE: u8 = 5;
 const LAST_NUMERIC: u8 = 15;
 const OPAQUE: u8 = 17;
 const COMPLEX: u32 = 0x800;
-const LOGICAL: u32 = 0x200;
 
 /// Whether the first bytes of a file, 128 or more of them, are those of a
 /// MATLAB file of any version.
@@ -125,15 +102,48 @@ fn element<'a>(rest: &mut &'a [u8]) -> Result<(u32, &'a [u8]), Problem> {
     Ok((kind, data))
 }
 
-/// One variable of a file: what it is, and the element that holds it.
+/// One variable of a file.
 struct Variable<'a> {
     name: String,
     class: u8,
     flags: u32,
     /// Empty for opaque objects.
     dimensions: Vec<u32>,
-    kind: u32,
-    element: &'a [u8],
+    /// What follows, deflated or not.
+    values: Cow<'a, [u8]>,
+}
+
+/// The bytes of a deflated element.
+fn inflated(element: &[u8]) -> Result<Vec<u8>, Problem> {
+    let mut decoder = ZlibDecoder::new(element);
+    let mut inflated = |count: u64| -> Result<Vec<u8>, Problem> {
+        let mut bytes = Vec::new();
+        let read = decoder.by_ref().take(count).read_to_end(&mut bytes);
+        read.map_err(|error| match error.kind() {
+            std::io::ErrorKind::UnexpectedEof => cut_off(),
+            _ => Problem::Corrupt(format!("the deflated data of a variable: {error}")),
+        })?;
+        Ok(bytes)
+    };
+    let [a, b, c, d, length @ ..] = *inflated(8)?.first_chunk::<8>().ok_or_else(cut_off)?;
+    if u32::from_le_bytes([a, b, c, d]) != MATRIX {
+        return Err(malformed("a deflated element is not a variable"));
+    }
+    let (length, available) = (u64::from(u32::from_le_bytes(length)), element.len() as u64);
+    if length > DEFLATE_LIMIT * available {
+        return Err(Problem::Truncated(format!(
+            "a variable takes {length} bytes, which {available} deflated bytes cannot hold"
+        )));
+    }
+    let content = inflated(length)?;
+    if (content.len() as u64) < length {
+        return Err(cut_off());
+    }
+    // What follows is the end, and the checksum.
+    match inflated(1)?.is_empty() {
+        true => Ok(content),
+        false => Err(malformed("deflated bytes follow the variable")),
+    }
 }
 
 impl<'a> Variable<'a> {
@@ -143,83 +153,46 @@ impl<'a> Variable<'a> {
             class: 0,
             flags: 0,
             dimensions: Vec::new(),
-            kind,
-            element,
+            values: Cow::Borrowed(&[]),
         };
-        let content = variable.content(DESCRIPTION)?;
-        variable.describe(&mut &*content)?;
+        if kind == MATRIX {
+            variable.values = Cow::Borrowed(variable.describe(element)?);
+        } else {
+            let mut content = inflated(element)?;
+            let behind = content.len() - variable.describe(&content)?.len();
+            content.drain(..behind);
+            variable.values = Cow::Owned(content);
+        }
         Ok(variable)
     }
 
-    /// The first bytes of the variable, at most so many; deflated ones are inflated.
-    fn content(&self, most: u64) -> Result<Cow<'a, [u8]>, Problem> {
-        if self.kind == MATRIX {
-            return Ok(Cow::Borrowed(self.element));
-        }
-        let mut decoder = ZlibDecoder::new(self.element);
-        let mut inflated = |count: u64| -> Result<Vec<u8>, Problem> {
-            let mut bytes = Vec::new();
-            let read = decoder.by_ref().take(count).read_to_end(&mut bytes);
-            read.map_err(|error| match error.kind() {
-                std::io::ErrorKind::UnexpectedEof => cut_off(),
-                _ => Problem::Corrupt(format!("the deflated data of a variable: {error}")),
-            })?;
-            Ok(bytes)
-        };
-        let [a, b, c, d, length @ ..] = *inflated(8)?.first_chunk::<8>().ok_or_else(cut_off)?;
-        if u32::from_le_bytes([a, b, c, d]) != MATRIX {
-            return Err(malformed("a deflated element is not a variable"));
-        }
-        let length = u64::from(u32::from_le_bytes(length));
-        let available = self.element.len() as u64;
-        if length > DEFLATE_LIMIT * available {
-            return Err(Problem::Truncated(format!(
-                "a variable takes {length} bytes, which {available} deflated bytes cannot hold"
-            )));
-        }
-        let content = inflated(length.min(most))?;
-        if (content.len() as u64) < length.min(most) {
-            return Err(cut_off());
-        }
-        // What follows is the end, and the checksum.
-        if length <= most && !inflated(1)?.is_empty() {
-            return Err(malformed("deflated bytes follow the variable"));
-        }
-        Ok(Cow::Owned(content))
-    }
-
-    /// Takes in what stands before the values.
-    fn describe(&mut self, rest: &mut &[u8]) -> Result<(), Problem> {
+    /// Takes in what stands before the values, which it returns.
+    fn describe<'b>(&mut self, mut rest: &'b [u8]) -> Result<&'b [u8], Problem> {
         let words = |bytes: &[u8]| -> Vec<u32> {
             let (words, _) = bytes.as_chunks();
             words.iter().map(|&word| u32::from_le_bytes(word)).collect()
         };
-        let [flags, _] = words(element(rest)?.1)[..] else {
+        let [flags, _] = words(element(&mut rest)?.1)[..] else {
             return Err(malformed("the flags of a variable are not two integers"));
         };
         (self.flags, self.class) = (flags, flags as u8);
         if !(1..=OPAQUE).contains(&self.class) {
-            return Err(Problem::Corrupt(format!(
-                "a variable of class {}",
-                self.class
-            )));
+            let class = self.class;
+            return Err(Problem::Corrupt(format!("a variable of class {class}")));
         }
         if self.class != OPAQUE {
-            self.dimensions = words(element(rest)?.1);
+            self.dimensions = words(element(&mut rest)?.1);
             let dimensions = &self.dimensions;
             if dimensions.len() < 2 || dimensions.iter().any(|&d| d > i32::MAX as u32) {
                 return Err(malformed("a variable without proper dimensions"));
             }
         }
-        self.name = String::from_utf8_lossy(element(rest)?.1).into_owned();
-        Ok(())
+        self.name = String::from_utf8_lossy(element(&mut rest)?.1).into_owned();
+        Ok(rest)
     }
 
-    fn class_name(&self) -> &'static str {
-        match self.class {
-            6..=LAST_NUMERIC if self.flags & LOGICAL != 0 => "logical",
-            class => CLASSES[usize::from(class) - 1],
-        }
+    fn is_numeric(&self) -> bool {
+        (SPARSE..=LAST_NUMERIC).contains(&self.class)
     }
 
     fn shape(&self) -> String {
@@ -229,9 +202,8 @@ impl<'a> Variable<'a> {
 
     /// Rows and columns of a numeric matrix.
     fn numeric_shape(&self) -> Option<[u32; 2]> {
-        let numeric = (SPARSE..=LAST_NUMERIC).contains(&self.class);
         let shape = self.dimensions.first_chunk().copied();
-        shape.filter(|_| numeric && self.dimensions.len() == 2)
+        shape.filter(|_| self.is_numeric() && self.dimensions.len() == 2)
     }
 
     fn is_square(&self) -> bool {
@@ -242,11 +214,8 @@ impl<'a> Variable<'a> {
     /// The entries that are not zero, and zeros that a sparse matrix stores, column by column with rows
     /// increasing.
     fn entries(&self) -> Result<Vec<Entry>, Problem> {
-        if !(SPARSE..=LAST_NUMERIC).contains(&self.class) {
-            return Err(Problem::new(
-                format!("a {} is not a numeric matrix", self.class_name()),
-                matrix::SQUARE,
-            ));
+        if !self.is_numeric() {
+            return Err(Problem::new("this is no matrix of numbers", matrix::SQUARE));
         }
         if self.flags & COMPLEX != 0 {
             return Err(Problem::new(
@@ -257,14 +226,7 @@ impl<'a> Variable<'a> {
         let Some([rows, columns]) = self.numeric_shape() else {
             return Err(matrix::not_square(&self.shape()));
         };
-        let content = self.content(u64::MAX)?;
-        let mut rest = &*content;
-        let again = &mut Self {
-            dimensions: Vec::new(),
-            name: String::new(),
-            ..*self
-        };
-        again.describe(&mut rest)?;
+        let mut rest = &*self.values;
         let entries = match self.class {
             SPARSE => self.sparse(rows, columns, &mut rest)?,
             _ => self.full(rows, columns, &mut rest)?,
@@ -483,7 +445,10 @@ fn choose<'v, 'a>(
     let present = || match variables {
         [] => "no variables".to_owned(),
         _ => {
-            let describe = |v: &Variable| format!("{} ({} {})", v.name, v.shape(), v.class_name());
+            let describe = |v: &Variable| match v.is_numeric() {
+                true => format!("{} ({})", v.name, v.shape()),
+                false => format!("{} (no numbers)", v.name),
+            };
             let all: Vec<String> = variables.iter().map(describe).collect();
             all.join(", ")
         }

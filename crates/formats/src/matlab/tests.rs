@@ -198,8 +198,8 @@ fn the_variable_is_a_or_the_only_square_one_or_the_one_named() {
     let both = LITTLE.file(&[path("graph"), pair.clone()]);
     assert_eq!(
         refusal(&both),
-        "f.mat: no variable A and 2 square matrices; the file holds graph (4x4 double), \
-         pair (2x2 double); name the adjacency matrix with --variable"
+        "f.mat: no variable A and 2 square matrices; the file holds graph (4x4), \
+         pair (2x2); name the adjacency matrix with --variable"
     );
     assert_eq!(read(&both, Some("pair")).unwrap().nodes(), 2);
     let missing = read(&both, Some("A"))
@@ -221,7 +221,7 @@ fn the_variable_is_a_or_the_only_square_one_or_the_one_named() {
     assert!(
         named
             .to_string()
-            .contains("variable text: a character array is not a numeric matrix")
+            .contains("variable text: this is no matrix of numbers")
     );
 }
 
@@ -254,7 +254,7 @@ fn what_is_no_adjacency_is_refused_with_its_place() {
     );
     for class in [1, 2, 3, 4, 16] {
         let variable = LITTLE.variable(class, &[2, 2], "A", &[]);
-        assert!(refusal(&LITTLE.file(&[variable])).contains("is not a numeric matrix; give"));
+        assert!(refusal(&LITTLE.file(&[variable])).contains("this is no matrix of numbers; give"));
     }
     let mut data = Vec::new();
     for value in [0.0, f64::NAN, 1.0, 0.0] {

@@ -3,16 +3,14 @@
 //! In: the entries of a square matrix that are not zero. Out: its graph, with notes about what the entries
 //! were.
 //!
-//! Every entry that is not zero is a pair, whatever its value; only the pattern has to be symmetric. There are
-//! matrices of which that is not the meaning, and they are refused: those of blocks, of which each belongs to two
-//! cameras, as of all fundamental matrices or relative poses, and tables of real numbers for all pairs, which are
-//! distances or the like and say nothing about pairs.
+//! Every entry that is not zero is a pair; only the pattern has to be symmetric. The entries are one number, or
+//! counts. Other numbers may be distances, or blocks of fundamental matrices or poses, and are refused unless
+//! whoever asks says from which weight on they count.
 
 use crate::edge_list::columns::ListOptions;
-use crate::edge_list::decimal::Decimal;
 use crate::error::Problem;
 use crate::read_as::{Parsed, ReadAs};
-use viewcert::graph::{Adjacency, Graph, GraphError, Labels};
+use viewcert::graph::{Graph, GraphError, Labels};
 use viewcert::wording::counted;
 
 /// Row and column, from 0, and value.
@@ -20,10 +18,9 @@ pub(super) type Entry = (u32, u32, f64);
 
 /// Nodes without pairs that a file may promise.
 const ISOLATED_LIMIT: u64 = 1 << 24;
-/// What is smaller beside the largest entry may be an error of rounding.
-const ROUNDING: f64 = 1e-12;
 /// What to do about a matrix that is none of pairs.
-const ONES: &str = "write a matrix with 1 for a pair of cameras and 0 for none";
+const ONES: &str = "if each that is not zero is a pair, save A ~= 0 in MATLAB, A != 0 in Python; if they are weights, \
+                    --min-weight says which count";
 /// More entries than any graph has pairs, twice.
 const ENTRY_LIMIT: usize = 2 * i32::MAX as usize;
 
@@ -60,24 +57,15 @@ pub(super) fn graph(
     let all = entries.len();
     entries.retain(|entry| entry.2 != 0.0);
     let zeros = all - entries.len();
-    let (least, most) = range(values(&entries));
-    // Rotations, translations and fundamental matrices have entries of both signs.
-    let may_have_blocks = size > 4 && (size.is_multiple_of(3) || size.is_multiple_of(4));
-    if may_have_blocks && least < 0.0 && 0.0 < most {
-        return Err(Problem::new(
-            "some entries are negative, as in blocks of fundamental matrices or poses",
-            ONES,
-        ));
-    }
     let read = ReadAs {
         ignored: choose(&mut entries, options),
         ..ReadAs::default()
     };
-    let graph = pattern(size, &entries)?;
     let note = match options.min_weight {
         Some(_) => None,
-        None => describe(&graph, &entries)?,
+        None => describe(&entries)?,
     };
+    let graph = pattern(size, &entries)?;
     let mut notes: Vec<String> = note.into_iter().collect();
     if zeros > 0 {
         let entries = counted(zeros, "entry");
@@ -142,7 +130,7 @@ fn choose(entries: &mut Vec<Entry>, options: &ListOptions) -> Vec<String> {
     entries.retain(|&(row, column, value)| {
         let is_loop = row == column;
         let least = options.min_weight.as_ref().filter(|_| !is_loop);
-        let is_light = least.is_some_and(|least| weighs_less(value, least));
+        let is_light = least.is_some_and(|least| least.is_above(&value.to_string()) == Ok(true));
         loops += usize::from(is_loop);
         light += usize::from(is_light && row < column);
         !(is_light || is_loop && options.skip_loops)
@@ -155,12 +143,6 @@ fn choose(entries: &mut Vec<Entry>, options: &ListOptions) -> Vec<String> {
         said.push(format!("{} below {least}", counted(light, "pair")));
     }
     said
-}
-
-/// Whether a value is below the least one, as the shortest decimal number that stands for it.
-fn weighs_less(value: f64, least: &Decimal) -> bool {
-    let value = value.to_string().parse::<Decimal>();
-    value.is_ok_and(|value| value < *least)
 }
 
 /// The graph whose adjacency has this pattern. O(m log m).
@@ -205,71 +187,26 @@ fn range(numbers: impl Iterator<Item = f64>) -> (f64, f64) {
     })
 }
 
-fn values(entries: &[Entry]) -> impl Iterator<Item = f64> {
-    entries.iter().map(|entry| entry.2)
-}
-
-/// Whether three rows each have the same pairs, none among themselves.
-fn are_threes(graph: &Graph) -> bool {
-    let neighbours = Adjacency::new(graph);
-    let of = |k: u32| neighbours.neighbours(k);
-    let mut firsts = (0..graph.nodes() as u32).step_by(3);
-    graph.nodes() > 3
-        && graph.nodes().is_multiple_of(3)
-        && !graph.edges().is_empty()
-        && firsts.all(|k| {
-            let blocks = of(k).as_chunks::<3>();
-            let is_block =
-                |three: &[u32; 3]| three[0].is_multiple_of(3) && three[2] == three[0] + 2;
-            blocks.1.is_empty()
-                && blocks.0.iter().all(is_block)
-                && of(k) == of(k + 1)
-                && of(k) == of(k + 2)
-        })
-}
-
 /// A note on entries that say more than that they are there.
 ///
 /// # Errors
-/// Numbers for all pairs, which say which pairs are near, and not which pairs there are.
-fn describe(graph: &Graph, entries: &[Entry]) -> Result<Option<String>, Problem> {
-    /// A triangle with weights is a graph more often than a table.
-    const FEW: usize = 3;
-    let (least, most) = range(values(entries));
+/// Numbers that may be something else than counts.
+fn describe(entries: &[Entry]) -> Result<Option<String>, Problem> {
+    let (least, most) = range(entries.iter().map(|entry| entry.2));
     if least >= most {
-        let note = "the rows come in threes with the same pairs (the pattern of a matrix of 3 x 3 blocks?): \
-                    every row is taken for a camera";
-        return Ok(are_threes(graph).then(|| note.to_owned()));
+        return Ok(None);
     }
-    let integers = values(entries).all(|value| value.fract() == 0.0);
-    let nodes = graph.nodes();
-    if !integers && are_threes(graph) {
-        return Err(Problem::new(
-            "the rows come in threes with the same pairs: blocks of 3 x 3, perhaps",
-            ONES,
-        ));
-    }
-    if !integers && nodes > FEW && graph.edges().len() == nodes * (nodes - 1) / 2 {
-        return Err(Problem::new(
-            "every entry off the diagonal is non-zero, and they are no integers: a table \
-                   of distances, similarities or weights, which does not say which pairs there \
-                   are",
-            ONES,
-        ));
-    }
-    let (smallest, largest) = range(values(entries).map(f64::abs));
-    if !integers && smallest < ROUNDING * largest {
-        return Err(Problem::new(
-            "some entries are so small beside others that they may be rounding errors, and \
-                   no pairs",
-            ONES,
-        ));
-    }
-    let what = if integers { "integers" } else { "real numbers" };
+    let are_counts = least >= 0.0 && entries.iter().all(|entry| entry.2.fract() == 0.0);
     let [least, most] = [least, most].map(shown);
+    if !are_counts {
+        let what = "distances or blocks of poses, perhaps";
+        return Err(Problem::new(
+            format!("entries are numbers from {least} to {most}: {what}"),
+            ONES,
+        ));
+    }
     Ok(Some(format!(
-        "entries are {what} from {least} to {most} (counts, weights?): each that is not zero is \
-         a pair"
+        "entries are integers from {least} to {most} (counts, weights?): each that is not zero is a pair"
     )))
 }
 

@@ -36,39 +36,24 @@ fn blocks_are_no_pairs() {
         };
         refusal(read(9, entry))
     };
-    for signed in [
+    for blocks in [
         of(&|r, c| turn[r][c]),
         of(&|r, c| [[0.0, -3.0, 2.0], [3.0, 0.0, -1.0], [-2.0, 1.0, 0.0]][r][c]),
+        of(&|r, c| 0.1 + (r + 4 * c) as f64),
     ] {
-        let why = "some entries are negative, as in blocks of fundamental matrices or poses; write a matrix";
-        assert!(signed.starts_with(why), "{signed}");
+        assert!(blocks.starts_with("entries are numbers from "), "{blocks}");
+        let what = "distances or blocks of poses, perhaps; if each that is not zero is a pair, save A ~= 0";
+        assert!(blocks.contains(what), "{blocks}");
     }
-    let positive = of(&|r, c| 0.1 + (r + 4 * c) as f64);
-    assert!(
-        positive.starts_with("the rows come in threes with the same pairs"),
-        "{positive}"
-    );
-    // Before the diagonal of identities, which --skip-loops would leave out.
-    let poses = read(6, |r, c| {
-        if r == c {
-            1.0
-        } else {
-            turn[(r % 3) as usize][(c % 3) as usize]
-        }
-    });
-    assert!(refusal(poses).starts_with("some entries are negative"));
 }
 
-/// K_{3,3,3} has the pattern of blocks: with equal entries, or with counts, it is a graph.
+/// K_{3,3,3}: with equal entries, or with counts, it is a graph.
 #[test]
 fn threes_of_rows_with_counts_are_cameras() {
     let part = |r: u32, c: u32| r / 3 != c / 3;
     let Parsed { graph, notes, .. } = read(9, |r, c| f64::from(u8::from(part(r, c)))).unwrap();
     assert_eq!((graph.nodes(), graph.edges().len()), (9, 27));
-    assert!(
-        notes[0].starts_with("the rows come in threes with the same pairs"),
-        "{notes:?}"
-    );
+    assert_eq!(notes, [""; 0]);
     let counts = |r: u32, c: u32| f64::from(16 + (r.min(c) * 31 + r.max(c) * 17) % 97);
     let Parsed { graph, notes, .. } =
         read(9, |r, c| if part(r, c) { counts(r, c) } else { 0.0 }).unwrap();
@@ -93,15 +78,7 @@ fn what_the_values_are_is_said() {
         })
         .unwrap()
     };
-    let Parsed { graph, notes, .. } = with(&|r, c| 0.5 + f64::from(r + c));
-    assert_eq!(graph.edges().len(), 5);
     let meaning = "(counts, weights?): each that is not zero is a pair";
-    assert_eq!(
-        notes,
-        [format!(
-            "entries are real numbers from 1.5 to 7.5 {meaning}"
-        )]
-    );
     let Parsed { notes, .. } = with(&|r, c| f64::from(10 * (r + c)));
     assert_eq!(
         notes,
@@ -123,7 +100,7 @@ fn tables_and_what_is_no_number_are_refused() {
     let distance = |r: u32, c: u32| (f64::from(r) - f64::from(c)).abs() * 1.25;
     let text = refusal(read(5, distance));
     assert!(
-        text.starts_with("every entry off the diagonal is non-zero, and they are no integers"),
+        text.starts_with("entries are numbers from 1.25 to 5: "),
         "{text}"
     );
     for (value, what) in [
@@ -157,7 +134,7 @@ fn rounding_errors_are_no_pairs() {
         }
     }));
     assert!(
-        text.starts_with("some entries are so small beside others"),
+        text.starts_with("entries are numbers from 3.000e-17 to 0.5: "),
         "{text}"
     );
     assert_eq!(shown(1e-17), "1.000e-17");
@@ -171,9 +148,9 @@ fn entries_in_any_order_are_added_up() {
     let entries = vec![
         (2, 1, 1.0),
         (1, 0, 1.0),
-        (0, 1, 0.5),
+        (0, 1, 0.25),
         (1, 2, 1.0),
-        (0, 1, 0.5),
+        (0, 1, 0.75),
         (2, 0, 2.0),
         (0, 2, 2.0),
     ];
@@ -217,10 +194,9 @@ fn light_entries_and_the_diagonal_are_left_out() {
         };
         graph(3, entries.to_vec(), &options).map(|(parsed, _)| parsed)
     };
-    assert!(refusal(of(None, false)).starts_with("diagonal entry (1, 1)"));
+    assert!(refusal(of(None, false)).starts_with("entries are numbers from 0.1 to 900"));
     assert!(refusal(of(Some("1"), false)).starts_with("diagonal entry (1, 1)"));
     for (least, edges, said) in [
-        (None, 3, None),
         (Some("0.1"), 3, None),
         (
             Some("0.1000000000000000001"),

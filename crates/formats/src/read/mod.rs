@@ -14,7 +14,7 @@ use crate::edge_list::Reading;
 use crate::edge_list::columns::{Columns, ListOptions};
 use crate::edge_list::decimal::Decimal;
 use crate::error::{Fault, Place, Problem, ReadError};
-use crate::inflate::{Compression, Inflater};
+use crate::inflate::{Inflater, is_gzip};
 use crate::lines::{Encoding, LINE_LIMIT, Lines};
 use crate::matching::Matching;
 use crate::read_as::{Parsed, ReadAs};
@@ -82,20 +82,13 @@ pub enum Format {
     Matlab,
     /// An adjacency matrix in a MatrixMarket file; see [`matrix_market`].
     MatrixMarket,
-    /// Two names of images a line and nothing else, as COLMAP imports and hloc writes them.
-    MatchList,
-    /// Relative poses of GLOMAP: a pair, a quaternion, a translation.
-    Glomap,
-    /// `EGs.txt` of 1DSfM: a pair, a rotation, a translation. Cameras are called by their numbers;
-    /// their names in `list.txt` are not read: a graph is what one file says.
-    OneDsfm,
     /// A whole text; see [`documents`].
     Document(Document),
 }
 
 impl Format {
     /// The formats: the names on the command line, the first of which is printed, and what it reads.
-    pub const ALL: [(Self, &'static [&'static str], &'static str); 14] = [
+    pub const ALL: [(Self, &'static [&'static str], &'static str); 9] = [
         (
             Self::Edges,
             &["edges", "edge-list"],
@@ -114,21 +107,6 @@ impl Format {
             "Adjacency matrix, MatrixMarket coordinates",
         ),
         (
-            Self::MatchList,
-            &["match-list", "hloc-pairs"],
-            "Two names of images a line and nothing else: COLMAP's lists of matches, pairs of hloc",
-        ),
-        (
-            Self::Glomap,
-            &["glomap"],
-            "Relative poses of GLOMAP, 9 fields a line",
-        ),
-        (
-            Self::OneDsfm,
-            &["1dsfm"],
-            "EGs.txt of 1DSfM, 14 fields a line; cameras are called by their numbers",
-        ),
-        (
             Self::Document(Document::Stars),
             &["openmvg-pairs", "adjacency-list"],
             "The first field of every line with each of the others: pairs and stars of OpenMVG, adjacency lists",
@@ -139,16 +117,6 @@ impl Format {
             "Matches of features as COLMAP imports them: two names, and below them two numbers a line",
         ),
         (Self::Document(Document::G2o), &["g2o"], "Pose graph of g2o"),
-        (
-            Self::Document(Document::PoseGraph),
-            &["open3d"],
-            "Pose graph of Open3D, JSON",
-        ),
-        (
-            Self::Document(Document::ViewSelection),
-            &["mvsnet"],
-            "MVSNet's pair.txt: each view and the neighbours chosen for it",
-        ),
         (
             Self::Document(Document::GraphMl),
             &["graphml"],
@@ -170,8 +138,7 @@ impl FromStr for Format {
 /// A word that is not the name of a format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "the formats are edges, graph6, sparse6, matlab, matrix-market, match-list, glomap, 1dsfm, \
-     openmvg-pairs, raw-matches, g2o, open3d, mvsnet and graphml"
+    "the formats are edges, graph6, sparse6, matlab, matrix-market, openmvg-pairs, raw-matches, g2o and graphml"
 )]
 pub struct UnknownFormat;
 
@@ -310,8 +277,8 @@ pub fn read_meant(
 }
 
 /// Streams the graphs of one input (`-` is standard input): one a line for graph6 and
-/// sparse6, else one. Nothing is read before the first item is asked for. What gzip or bzip2
-/// has compressed is unpacked.
+/// sparse6, else one. Nothing is read before the first item is asked for. What gzip has
+/// compressed is unpacked.
 ///
 /// A bad line of graph6 or sparse6 is an `Err` item, and the next line follows it, if a header or
 /// the options say that it is such a file; every other error ends the stream.
@@ -350,17 +317,17 @@ fn graphs_at(
         Ok(sampled) => sampled,
         Err(problem) => return failed(&name, Place::Input.fault(problem)),
     };
-    let Some(compression) = Compression::of(&sampled.head) else {
+    if !is_gzip(&sampled.head) {
         return of_sampled(path, name, sampled, options);
-    };
-    let inner = match sampled_again(sampled, compression) {
+    }
+    let inner = match sampled_again(sampled) {
         Ok(inner) => inner,
         Err(problem) => return failed(&name, Place::Input.fault(problem)),
     };
     let graphs = of_sampled(None, name, inner, options);
     Box::new(graphs.map(move |graph| {
         graph.map(|mut graph| {
-            graph.read.compression = Some(compression.name().into());
+            graph.read.compression = Some("gzip".into());
             graph
         })
     }))
@@ -414,9 +381,9 @@ fn more(input: &mut Input, head: &mut Vec<u8>, count: u64) -> Result<bool, Probl
 }
 
 /// What is in a compressed file, which has to be something else.
-fn sampled_again(outer: Sampled, compression: Compression) -> Result<Sampled, Problem> {
-    let inner = sampled(Box::new(Inflater::new(outer.into_input(), compression)))?;
-    if Compression::of(&inner.head).is_some() {
+fn sampled_again(outer: Sampled) -> Result<Sampled, Problem> {
+    let inner = sampled(Box::new(Inflater::new(outer.into_input())))?;
+    if is_gzip(&inner.head) {
         let what = "a file that is compressed twice";
         return Err(Problem::foreign(what, "unpack it once"));
     }
@@ -438,13 +405,10 @@ fn of_sampled(path: Option<&Path>, name: String, sampled: Sampled, options: Read
     }
     let edges = match options.format {
         Some(Format::Edges) => Reading::Lenient,
-        Some(Format::MatchList) => Reading::Columns(2),
-        Some(Format::Glomap) => Reading::Columns(9),
-        Some(Format::OneDsfm) => Reading::Columns(14),
         _ => Reading::Strict,
     };
     let kind = match options.format {
-        Some(Format::Edges | Format::MatchList | Format::Glomap | Format::OneDsfm) => Ok(None),
+        Some(Format::Edges) => Ok(None),
         Some(Format::Graph6) => Ok(Some(Kind::Lines {
             encoding: Encoding::Graph6,
             guessed: false,
@@ -474,7 +438,7 @@ fn of_sampled(path: Option<&Path>, name: String, sampled: Sampled, options: Read
             matrix_market::read_with(sampled.into_input(), &options.list)
         }
         // Compressed data within such are refused.
-        Ok(None | Some(Kind::Text | Kind::Compressed(_))) => list(sampled, edges, &options.list),
+        Ok(None | Some(Kind::Text | Kind::Compressed)) => list(sampled, edges, &options.list),
         Ok(Some(Kind::Document(document))) => {
             documents::read_with(document, sampled.into_input(), &options.list)
         }

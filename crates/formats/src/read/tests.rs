@@ -147,8 +147,6 @@ fn a_format_that_is_asked_for_is_not_guessed() {
     assert!(matches!(&items[..], [Err(error)] if error.contains("not a MATLAB file")));
     let items = with(b"1 2\n", options(Format::MatrixMarket));
     assert!(matches!(&items[..], [Err(error)] if error.contains("MatrixMarket")));
-    let items = with(b"source target\ntarget x\n", options(Format::MatchList));
-    assert!(matches!(&items[..], [Ok(named)] if named.graph.nodes() == 3));
     for (name, format) in [
         ("edges", Format::Edges),
         ("edge-list", Format::Edges),
@@ -156,8 +154,6 @@ fn a_format_that_is_asked_for_is_not_guessed() {
         ("sparse6", Format::Sparse6),
         ("matlab", Format::Matlab),
         ("matrix-market", Format::MatrixMarket),
-        ("match-list", Format::MatchList),
-        ("1dsfm", Format::OneDsfm),
         ("openmvg-pairs", Format::Document(Document::Stars)),
     ] {
         assert_eq!(name.parse(), Ok(format));

@@ -79,10 +79,15 @@ pub(crate) fn kind(head: &[u8], whole: bool) -> Option<TrackFile> {
     let lines = words::first_lines(text, whole);
     let lines: Vec<&[&[u8]]> = lines.iter().map(Vec::as_slice).collect();
     let integers = |line: &[&[u8]]| line.iter().all(|word| words::integer(word).is_some());
+    let is_below =
+        |one, other| words::integer(one) < words::integer(other) && words::integer(one).is_some();
     let numbers = |line: &[&[u8]]| line.iter().all(|word| words::is_number(word));
     match lines[..] {
-        [first @ [_, _, _], [camera, point, x, y], ..]
-            if integers(first) && integers(&[camera, point]) && numbers(&[x, y]) =>
+        [[cameras, points, observations], [camera, point, x, y], ..]
+            if is_below(camera, cameras)
+                && is_below(point, points)
+                && is_below(b"0", observations)
+                && numbers(&[x, y]) =>
         {
             Some(TrackFile::Bal)
         }

@@ -290,7 +290,7 @@ pub(crate) const GAMMA: [(u32, u32); 12] = [
 mod tests {
     use super::*;
     use crate::contract::Contraction;
-    use crate::geometry::model::Model;
+    use crate::geometry::model::full_rank;
     use crate::watch::unwatched;
     use rand::{Rng, SeedableRng};
 
@@ -310,7 +310,7 @@ mod tests {
             };
             search(&assembly, &block, &block.singles(), &mut by)
         });
-        let required = Model::Projective.required(nodes as usize);
+        let required = full_rank(nodes as usize);
         hub.map(|hub| (hub.clone(), required - hub.less))
     }
 

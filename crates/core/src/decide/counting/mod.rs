@@ -27,7 +27,7 @@ use crate::contract::piece::{Assembly, Members};
 use crate::decide::evidence::{Block, Counting};
 use crate::decide::motion_class;
 use crate::decide::stresses::Stresses;
-use crate::geometry::model::Model;
+use crate::geometry::model::{Model, full_rank};
 use crate::geometry::plane_flow::PlaneFlows;
 use crate::watch::Stopped;
 
@@ -76,7 +76,7 @@ pub(crate) fn count(
     by: &mut Search,
 ) -> Result<Counting, Stopped> {
     let partition = Counting::partition(model, assembly, components);
-    if partition.bound <= target || model == Model::Calibrated {
+    if partition.bound <= target || model.in_space() {
         return Ok(partition);
     }
     let whole = with_hub(assembly, piece, components, by)?;
@@ -134,7 +134,7 @@ fn by_dependent_parts(
                 inside = part.singles();
             }
             match inside.len() {
-                1 => Ok(Counting::partition(Model::Projective, assembly, &inside)),
+                1 => Ok(Counting::partition(Model::default(), assembly, &inside)),
                 _ => by_rigid_blocks(assembly, &part, &inside, by),
             }
         });
@@ -153,7 +153,7 @@ fn by_rigid_blocks(
     let blocks = rigid.iter().map(|block| {
         by.task.check()?;
         let inside = within(components, block);
-        let split = Counting::partition(Model::Projective, assembly, &inside);
+        let split = Counting::partition(Model::default(), assembly, &inside);
         if inside.len() < 2 {
             return Ok(split);
         }
@@ -181,7 +181,7 @@ fn with_hub(
     if hub.is_none() && components.len() < block.len() {
         hub = hub::search(assembly, block, &block.singles(), by)?;
     }
-    let required = Model::Projective.required(assembly.count_nodes(block));
+    let required = full_rank(assembly.count_nodes(block));
     Ok(Counting {
         bound: required - hub.as_ref().map_or(0, |hub| hub.less),
         blocks: vec![Block {

@@ -9,7 +9,6 @@ use crate::decide::options::Options;
 use crate::decide::verdict::Verdict;
 use crate::decide::walk::{ATTEMPTS, Piece};
 use crate::decide::{decide, evidence::PieceVerdict};
-use crate::geometry::model::Model;
 use crate::graph::Graph;
 use std::collections::BTreeMap;
 
@@ -89,7 +88,7 @@ pub fn closure(
     let larger = |nodes: &Vec<u32>| nodes.len() > 2;
     let components = verdict.components.iter().map(|one| one.nodes());
     let complete = verdict.rank_claim().strength;
-    if verdict.model != Model::Projective {
+    if verdict.model.is_linear() {
         return Ok(Closure {
             sets: components.filter(larger).collect(),
             pairs: Vec::new(),

@@ -88,7 +88,7 @@ fn one_sensor_asks_for_pairs_and_for_the_calibrated_model() {
         let nodes = draw.random_range(2..=8);
         let pairs = random_pairs(&mut draw, nodes, 2 * nodes as usize);
         let graph = Graph::new(nodes, pairs.iter().copied()).unwrap();
-        let question = Question::from(Model::Calibrated);
+        let question = Question::from(crate::Model::Calibrated);
         let calibrated = decide(&graph, &Options::default().question(question)).unwrap();
         let solvable = calibrated.rank == calibrated.required;
         for (class, _) in Class::ALL {
