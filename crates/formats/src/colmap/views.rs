@@ -13,7 +13,7 @@ use super::focal::SPHERICAL;
 use super::motion::motion;
 use super::tables::{PAIR_FACTOR, columns};
 use super::{DatabaseError, TwoViews};
-use crate::motions::Measured;
+use crate::motions::{Measured, Unchecked};
 
 /// A database whose pairs are asked for one by one.
 pub struct Views<'a> {
@@ -128,8 +128,11 @@ impl<'a> Views<'a> {
         let both = [a, b].map(|image| image as usize);
         let [priors, plain] =
             [&self.priors, &self.plain].map(|all| both.iter().all(|&image| all[image]));
-        let views = self.two(a, b)?.ok_or(DatabaseError::Changed)?;
-        Ok(motion(&views, priors, plain))
+        Ok(match self.two(a, b)? {
+            Some(views) => motion(&views, priors, plain),
+            // The row names the images in the other order, which COLMAP never writes.
+            None => Err((Unchecked::Configuration, None)),
+        })
     }
 
     /// What is known of a pair; nothing, if it is not in the table of verified pairs.
@@ -241,12 +244,16 @@ impl Keypoints {
             if self.0.contains_key(&image) {
                 continue;
             }
-            let query = "select cols, data from keypoints where image_id = ?";
+            let query = "select cols, data, rows from keypoints where image_id = ?";
             let mut statement = views.connection.prepare_cached(query)?;
             let read = |row: &Row| {
                 let columns: Option<u32> = row.get(0)?;
                 let data = row.get_ref(1)?.as_blob().unwrap_or(&[]);
-                Ok(points(columns.unwrap_or(0) as usize, data))
+                let (columns, rows) =
+                    (columns.unwrap_or(0) as usize, row.get::<_, Option<u32>>(2)?);
+                // A list that is not as long as it says holds no keypoint that we could name.
+                let fits = 4 * columns * rows.unwrap_or(0) as usize == data.len();
+                Ok(points(columns, if fits { data } else { &[] }))
             };
             let id = views.ids[image as usize];
             let found = statement.query_row(params![id], read).optional()?;
