@@ -185,6 +185,9 @@ struct State {
     joined: Vec<Joined>,
 }
 
+/// The sets of nodes that members have in a part, and what shows that it is rigid.
+type RigidPart = (Vec<Vec<u32>>, Evidence);
+
 impl State {
     fn new(nodes: usize, members: Vec<Vec<u32>>) -> Self {
         let numbers = (0..members.len()).collect();
@@ -325,7 +328,7 @@ impl State {
         removed: &[u32],
         sha256: &[u8; 32],
         options: &Options,
-    ) -> Result<Vec<(Vec<Vec<u32>>, Evidence)>, VerdictError> {
+    ) -> Result<Vec<RigidPart>, VerdictError> {
         let mut is_removed = vec![false; self.nodes];
         for &v in removed {
             is_removed[v as usize] = true;
