@@ -328,10 +328,6 @@ fn markup(text: &str) -> Option<Problem> {
             "a file of cameras of nerfstudio without matches",
             "give COLMAP's database.db or sparse/0, of which they were made",
         )),
-        () if has(&["PoseGraph"]) => Some(foreign(
-            "a pose graph of Open3D",
-            "in Python: for e in json.load(open('FILE'))['edges']: print(e['source_node_id'], e['target_node_id'])",
-        )),
         () if is_graph && edges => Some(foreign(
             "a graph in JSON",
             networkx!("networkx.node_link_graph(json.load(open('FILE')), edges='links')"),

@@ -1,4 +1,5 @@
-//! Graphs in texts that are read as a whole: g2o, GraphML, raw matches, and stars if they are asked for.
+//! Graphs in texts that are read as a whole: g2o, GraphML, raw matches, files of pipelines, and stars if they are
+//! asked for.
 //!
 //! In: a text and which of these it is. Out: the graph with its labels, and notes about what was
 //! ignored or merged. Nodes are numbered by their sorted labels, as those of an edge list
@@ -14,6 +15,7 @@ use crate::read_as::Parsed;
 mod collected;
 mod g2o;
 pub(crate) use g2o::is_g2o;
+mod pipelines;
 mod raw_matches;
 mod stars;
 mod xml;
@@ -27,6 +29,10 @@ pub enum Document {
     GraphMl,
     /// A node and its neighbours a line: pairs of OpenMVG, adjacency lists.
     Stars,
+    /// Pose graphs of Open3D.
+    PoseGraph,
+    /// MVSNet's `pair.txt`.
+    ViewSelection,
     /// Matches of features of COLMAP's importer: a pair of names, and lines of two features.
     RawMatches,
 }
@@ -40,6 +46,8 @@ impl Document {
         [
             (Self::GraphMl, xml::is_graphml(text)),
             (Self::G2o, g2o::is_g2o(text)),
+            (Self::PoseGraph, pipelines::is_pose_graph(text)),
+            (Self::ViewSelection, pipelines::is_view_selection(text)),
             (Self::RawMatches, raw_matches::is_raw(text, whole)),
         ]
         .into_iter()
@@ -56,6 +64,8 @@ impl Document {
         match self {
             Self::G2o => "pose graph of g2o",
             Self::GraphMl => "GraphML",
+            Self::PoseGraph => "pose graph of Open3D",
+            Self::ViewSelection => "MVSNet's pair.txt",
             Self::Stars => "adjacency list",
             Self::RawMatches => "raw matches of COLMAP",
         }
@@ -85,6 +95,8 @@ pub(super) fn read_with(
     let mut parsed = match document {
         Document::G2o => g2o::read(text, options),
         Document::GraphMl => xml::read(text, options),
+        Document::PoseGraph => pipelines::pose_graph(text, options),
+        Document::ViewSelection => pipelines::view_selection(text, options),
         Document::Stars => stars::read(text, options),
         Document::RawMatches => raw_matches::read(text, options),
     }?;

@@ -89,7 +89,12 @@ fn what_is_no_text_is_refused_with_the_line() {
     }
 }
 
-const ALL: [Document; 3] = [Document::G2o, Document::GraphMl, Document::Stars];
+const ALL: [Document; 4] = [
+    Document::G2o,
+    Document::GraphMl,
+    Document::Stars,
+    Document::ViewSelection,
+];
 
 /// A graph as a text of a format. Integer labels only for those that have no others.
 fn written(document: Document, labels: &[String], pairs: &[(usize, usize)]) -> String {
@@ -124,6 +129,18 @@ fn written(document: Document, labels: &[String], pairs: &[(usize, usize)]) -> S
                     labels[a], labels[b]
                 )
                 .unwrap();
+            }
+        }
+        Document::PoseGraph => unreachable!("its nodes have no labels"),
+        Document::ViewSelection => {
+            writeln!(text, "{}", labels.len()).unwrap();
+            for (label, node) in labels.iter().zip(0..) {
+                let all: Vec<_> = pairs.iter().filter(|&&(a, _)| a == node).collect();
+                write!(text, "{label}\n{}", all.len()).unwrap();
+                for (_, b) in all {
+                    write!(text, " {} 0.5", labels[*b]).unwrap();
+                }
+                text += "\n";
             }
         }
         Document::RawMatches => {

@@ -45,11 +45,8 @@ pub(super) fn read<'a>(text: &'a [u8], plain: &mut Plain, end: impl Fn(&'a [u8])
     pairs.reserve(text.len().min(2 * PIECE) / 8);
     *with_more = 0;
     let mut left = text;
-    loop {
-        // A pair of a label with itself is for the general way, before `end` takes note of it.
-        let Some((a, b, further)) = pair(left).filter(|(a, b, _)| a != b) else {
-            break;
-        };
+    // A pair of a label with itself is for the general way, before `end` takes note of it.
+    while let Some((a, b, further)) = pair(left).filter(|(a, b, _)| a != b) {
         match end(further) {
             Some((more, rest)) if left.len() - rest.len() <= LINE_LIMIT => {
                 pairs.push((a, b));
