@@ -21,7 +21,8 @@ pub use text::Proof;
 
 use bodies::Record;
 
-use crate::decide::{Value, Verdict};
+use crate::decide::evidence::Evidence;
+use crate::decide::{Options, Question, Value, Verdict, decide};
 use crate::graph::Graph;
 use std::fmt;
 
@@ -122,6 +123,13 @@ impl Verdict {
                     lower = 0;
                     record.done.clear();
                 }
+                // Rounds take the place of bodies by rank, which would have left a smaller core.
+                Err(unproved @ Unproved::Core(_)) if self.rests_on_rounds() => {
+                    let asked = Question::without_solutions(model);
+                    let options = Options::default().question(asked).seed(self.seed);
+                    let by_rank = decide(graph, &options).map_err(|_| unproved)?;
+                    return by_rank.proof(graph);
+                }
                 Err(unproved) => return Err(unproved),
             }
         }
@@ -144,6 +152,11 @@ impl Verdict {
             blocks,
             components,
         })
+    }
+
+    fn rests_on_rounds(&self) -> bool {
+        let mut evidence = self.pieces.iter().flat_map(|piece| &piece.evidence);
+        evidence.any(|one| *one == Evidence::OneSolution)
     }
 }
 

@@ -145,16 +145,30 @@ fn a_core_without_flows_has_one_of_zeros() {
 /// A torus has bodies by rank (Proposition 4.15), which are cores of their own.
 #[test]
 fn bodies_by_rank_are_written() {
-    let at = |x: u32, y: u32| 24 * (x % 24) + y % 24;
-    let near = |(x, y)| [(at(x, y), at(x + 1, y)), (at(x, y), at(x, y + 1))];
-    let all = (0..24).flat_map(|x| (0..24).map(move |y| (x, y)));
-    let graph = Graph::new(576, all.flat_map(near)).unwrap();
+    let graph = torus(24, 24);
     let off = Question::with_solutions(crate::CountSolutions::Off);
     let verdict = decide(&graph, &Options::default().question(off)).unwrap();
     assert!(!verdict.contraction.by_rank.is_empty());
     let proof = verdict.proof(&graph).unwrap();
     assert_eq!((proof.lower(), proof.upper()), (6321, 6321));
     assert!(proof.to_string().matches("\nbody ").count() > 1);
+}
+
+/// Rounds show that a larger one is unique, and its explicit proof is by rank all the same.
+#[test]
+fn what_rounds_show_is_written_by_rank() {
+    let graph = torus(32, 32);
+    let verdict = decide(&graph, &Options::default()).unwrap();
+    assert!(verdict.value == crate::Value::Solvable && verdict.rests_on_rounds());
+    let proof = verdict.proof(&graph).unwrap();
+    assert_eq!((proof.lower(), proof.upper()), (11_249, 11_249));
+}
+
+fn torus(height: u32, width: u32) -> Graph {
+    let at = |x: u32, y: u32| width * (x % height) + y % width;
+    let near = |(x, y)| [(at(x, y), at(x + 1, y)), (at(x, y), at(x, y + 1))];
+    let all = (0..height).flat_map(|x| (0..width).map(move |y| (x, y)));
+    Graph::new(height * width, all.flat_map(near)).unwrap()
 }
 
 /// A cycle with chords to nodes far away: no region of it is rigid, and all of it is the core.
