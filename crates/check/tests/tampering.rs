@@ -133,6 +133,8 @@ fn all_are_verified() {
             "ring",
             "biclique",
             "heawood",
+            "tripod",
+            "link",
             "affine-bipartite",
             "affine-bars",
             "parts-rig",
