@@ -226,7 +226,7 @@ fn notes_are_printed() {
     let path = folder().join("head.csv");
     let path = path.to_str().unwrap();
     let note = "the first line is a head: source,target";
-    for command in [&[][..], &["models"], &["overview"], &["audit"]] {
+    for command in [&[][..], &["models"], &["overview", "--all"], &["audit"]] {
         let run = verify(&[command, &[path]].concat());
         assert!(
             run.out.contains(&format!("  note        {note}\n"))

@@ -191,7 +191,11 @@ impl List<'_> {
         let thirds: HashSet<u32> = lines.iter().map(|line| line[2]).collect();
         let labels = lines.iter().filter(|line| known(&line[2])).count();
         let are_apart = lines.iter().all(|&[a, b, c]| a != c && b != c);
+        let both: HashSet<(u32, u32)> = pairs.iter().flat_map(|&(a, b)| [(a, b), (b, a)]).collect();
+        let is_closed = |&&[a, b, c]: &&[u32; 3]| both.contains(&(a, c)) || both.contains(&(b, c));
+        let closed = lines.iter().filter(is_closed).count();
         (are_apart
+            && (pairs.len() <= FEW || 4 * closed >= lines.len())
             && 2 * thirds.len() >= ends.len().min(lines.len())
             && 4 * labels >= 3 * lines.len())
         .then_some("the third numbers are labels, too: triangles, perhaps")

@@ -132,7 +132,7 @@ fn vectors_and_positions_are_exact() {
         "a \"b c\" -50 0 10",
         "d \"\"\"f\" 0 0 100/3",
         "d e 100 0 0",
-        "e e 0 0 0",
+        "e d -100 0 0",
     ];
     let again = lines("displacement", &pairs) + "position e 3 4 5";
     assert_eq!(displacements(&again, &names()).1, vectors);
@@ -203,7 +203,14 @@ fn what_is_wrong_is_said_with_its_line() {
             lines("position", &["a 1 2 3", "d 1 2 4", "a 1 2 4"]),
             ":3: this contradicts ",
         ),
-        (displaced(&["a a 0 0 1"]), ":1: this contradicts the lines "),
+        (
+            displaced(&["a d 0 0 1", "d a 0 0 1"]),
+            ":2: this contradicts the lines ",
+        ),
+        (
+            displaced(&["a a 0 0 0"]),
+            ":1: the line names one camera twice; ",
+        ),
         (
             displaced(&["a d 1 0 0", "e d 1 0 0"]),
             ": `a` and `e` are at one place; ",
