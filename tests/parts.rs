@@ -464,11 +464,13 @@ fn bodies_by_rank_with_parts() {
     let files = Files::new(&cells.map(around).collect::<String>(), "0 18 40\n");
     let folder = files.path("certificates");
     fs::create_dir(&folder).unwrap();
-    let run = files.verify(&["--json", "--certificate", folder.to_str().unwrap()]);
+    let folder = folder.to_str().unwrap();
+    // Rounds would show that it is unique.
+    let run = files.verify(&["--json", "--solutions=off", "--certificate", folder]);
     let line = &run.json()[0];
     assert_eq!(line["verdict"], "finite-solvable");
     assert_eq!((&line["parts"], &line["rank"]), (&1.into(), &3164.into()));
-    let only = fs::read_dir(&folder).unwrap().next().unwrap().unwrap();
+    let only = fs::read_dir(folder).unwrap().next().unwrap().unwrap();
     let certificate = only.path().to_str().unwrap().to_owned();
     let text = fs::read_to_string(&certificate).unwrap();
     let value: serde_json::Value = serde_json::from_str(&text).unwrap();

@@ -5,14 +5,16 @@ use std::collections::BTreeMap;
 use viewcert::graph::{Graph, graph6};
 use viewcert::solutions::{Effort, count};
 use viewcert::watch::Watch;
-use viewcert::{CountSolutions, Options, Question, Value, decide};
+use viewcert::{CountSolutions, Model, Options, Question, Value, decide};
 use viewcert_catalog::candidates::has_adjacent_nodes_of_degree_2;
 use viewcert_catalog::{candidates, least_edges};
 
 /// The certificate of a graph with the evidence for its number of solutions; nothing if the graph is
 /// not finite solvable.
 fn certificate(graph: &Graph) -> Option<String> {
-    let verdict = decide(graph, &Options::default()).unwrap();
+    // Rounds would leave nothing to count.
+    let by_rank = Question::without_solutions(Model::Projective);
+    let verdict = decide(graph, &Options::default().question(by_rank)).unwrap();
     if verdict.value == Value::NotFiniteSolvable {
         return None;
     }
