@@ -94,7 +94,7 @@ fn forward_motion_is_uncertain() {
     let words = run.out.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(words.contains("uncertain: "), "{}", run.out);
     assert!(words.contains("global one model of all 29 images"));
-    assert!(words.contains("trust the tracks determine all 29 images"));
+    assert!(words.contains("the tracks determine all 29 images if every pair is right (proved)"));
 }
 
 #[test]

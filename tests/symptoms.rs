@@ -75,7 +75,14 @@ fn every_command_of_the_page_answers() {
     fs::copy(root().join("examples/house.txt"), at.join("graph.txt")).unwrap();
     let commands = commands();
     let verbs = [
-        "overview", "advise", "export", "merge", "split", "models", "--tracks",
+        "overview",
+        "advise",
+        "contradictions",
+        "export",
+        "merge",
+        "split",
+        "models",
+        "--tracks",
     ];
     for verb in verbs {
         let has = |command: &String| command.split(' ').nth(1) == Some(verb);
@@ -91,7 +98,12 @@ fn every_command_of_the_page_answers() {
             text(&found.stderr)
         );
         let said = text(&found.stdout);
-        assert!(said.lines().count() > 3, "{command}: {said}");
+        let few = if command.contains(" contradictions ") {
+            1
+        } else {
+            3
+        };
+        assert!(said.lines().count() > few, "{command}: {said}");
         assert!(!said.contains("database.db parts/ --"), "{command}: {said}");
     }
 }
@@ -238,11 +250,8 @@ fn recipes_lead_from_two_models_to_one() {
             (run.status.code(), text(&run.stdout), text(&run.stderr))
         };
         let (code, said, errors) = sh(lines[0]);
-        assert_eq!(
-            (code, said.lines().count(), &*errors),
-            (Some(0), 6, ""),
-            "{said}"
-        );
+        assert_eq!((code, &*errors), (Some(1), ""), "{said}");
+        assert!(said.lines().count() <= 12, "{said}");
         assert!(said.contains("incremental likely 6 + 6 images"), "{said}");
         let (code, said, errors) = sh(lines[1]);
         assert_eq!((code, &*errors), (Some(1), ""), "{said}");
