@@ -107,7 +107,7 @@ def main():
             run = subprocess.run([arguments.verify, "merge", *parts, "--json"], capture_output=True, text=True)
             found = json.loads(run.stdout)
             assert (run.returncode, found["freedom"]) == (freedom, freedom), found
-            assert found["shared_places"] == 1 and found["scaled"] == [base_line] * 2, found
+            assert found["shared_places"] == 1, found
     print(f"read {read} parts")
 
 
