@@ -365,7 +365,7 @@ fn solutions_are_counted() {
         "{said}"
     );
     assert!(
-        said.contains("; the scales of its parts have one solution"),
+        said.contains("unique: 1 round of removing 13 %"),
         "{said}"
     );
     assert!(
