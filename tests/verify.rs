@@ -364,10 +364,7 @@ fn solutions_are_counted() {
         said.contains("solvable: the cameras are unique if the centres"),
         "{said}"
     );
-    assert!(
-        said.contains("unique: 1 round of removing 13 %"),
-        "{said}"
-    );
+    assert!(said.contains("unique: 1 round of removing 13 %"), "{said}");
     assert!(
         said.contains(
             "finite-solvable: exactly 2 solutions over the complex numbers if the centres"
