@@ -54,7 +54,9 @@ impl ContradictionsReport<'_> {
         let look = self
             .look_at()
             .map_or_else(String::new, |look| format!("; {look}"));
-        Some(format!("{off}{look} (verify contradictions)"))
+        let focal = self.mostly_uncalibrated();
+        let focal = focal.map_or_else(String::new, |focal| format!("; {focal}"));
+        Some(format!("{off}{look}{focal} (verify contradictions)"))
     }
 
     /// Whether nothing contradicts anything.
@@ -224,18 +226,22 @@ impl ContradictionsReport<'_> {
             .count()
     }
 
+    /// That focal lengths may be wrong, if most pairs are uncalibrated.
+    fn mostly_uncalibrated(&self) -> Option<String> {
+        let (uncalibrated, all) = (self.uncalibrated(), self.motions.pairs.len());
+        (2 * uncalibrated > all).then(|| {
+            format!(
+                "{uncalibrated} of {all} checkable pairs are uncalibrated (configuration 3): focal lengths may be wrong"
+            )
+        })
+    }
+
     fn notes(&self) -> Vec<String> {
         let mut notes = Vec::new();
         if self.motions.either_way {
             notes.push("rotations count in the sense that leaves fewer contradictions".to_owned());
         }
-        let uncalibrated = self.uncalibrated();
-        if 2 * uncalibrated > self.motions.pairs.len() {
-            notes.push(format!(
-                "{uncalibrated} of {} checkable pairs are uncalibrated (configuration 3): focal lengths may be wrong",
-                self.motions.pairs.len()
-            ));
-        }
+        notes.extend(self.mostly_uncalibrated());
         if !self.is_good() {
             notes.push(
                 "off is the motion of a pair: wrong matches do it, and so does a wrong focal length".to_owned(),
