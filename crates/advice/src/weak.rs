@@ -69,7 +69,7 @@ pub struct WeakImage {
 /// separators are small, and far fewer where one count tells of many.
 ///
 /// # Errors
-/// Those of [`decide`].
+/// Those of [`decide`](viewcert::decide()).
 pub fn weak_pairs(
     graph: &Graph,
     parts: &Parts,
@@ -102,7 +102,7 @@ pub fn weak_pairs(
 /// As [`weak_pairs`], on sets of images no two of which are a pair.
 ///
 /// # Errors
-/// Those of [`decide`].
+/// Those of [`decide`](viewcert::decide()).
 pub fn weak_images(
     graph: &Graph,
     parts: &Parts,
