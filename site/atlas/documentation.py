@@ -55,7 +55,7 @@ def put(path, text):
 
 def exported():
     """What the Python package exports: functions, classes, errors and modules, each in their order."""
-    tree = ast.parse((PACKAGE / "viewcert/__init__.py").read_text())
+    tree = ast.parse((PACKAGE / "viewcert/_public.py").read_text())
     [names] = [ast.literal_eval(node.value) for node in tree.body if isinstance(node, ast.Assign) and node.targets[0].id == "__all__"]
     errors = re.findall(r"^class (\w+)", (PACKAGE / "viewcert/_errors.py").read_text(), re.M) + ["NoteWarning"]
     modules = [name for name in names if (PACKAGE / f"viewcert/{name}.py").exists()]

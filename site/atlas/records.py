@@ -44,7 +44,7 @@ def catalog(program):
     """The records of all finite-solvable graphs with up to ten nodes and the least number of pairs."""
     certificates = [line for nodes in range(3, 11) for line in published(nodes)]
     lines = [json.loads(certificate)["graph"]["graph6"] for certificate in certificates]
-    reports = program.lines([], lines)
+    reports = program.lines(["--solutions=full"], lines)
     told = zip(lines, reports, program.lines(["models"], lines), program.lines(["label"], lines), certificates)
     records = [Record(line, report, models, name, certificate) for line, report, models, name, certificate in told]
     for record in records:
@@ -137,7 +137,7 @@ def minimal(program, known):
     names = program.lines(["label"], lines)
     kept = [k for k, name in enumerate(names) if name["label"] not in known]
     lines, names = [lines[k] for k in kept], [names[k] for k in kept]
-    told = zip(lines, names, program.lines([], lines), program.lines(["models"], lines))
+    told = zip(lines, names, program.lines(["--solutions=full"], lines), program.lines(["models"], lines))
     return [row(name, line, solutions_word(report["solutions"]), models, 0) for line, name, report, models in told]
 
 
