@@ -25,9 +25,9 @@ BESIDE = {
     "lab/docs/intrinsics.md": "lab-intrinsics.md", "lab/docs/formulas.md": "lab-formulas.md", "lab/docs/benches.md": "lab-benches.md",
 }
 ORDER = {
-    "Begin": ["tutorials", "symptoms", "glossary", "input", "databases", "models", "reconstruction", "python", "api", "pyrigi", "rust"],
+    "Begin": ["tutorials", "symptoms", "glossary", "input", "databases", "models", "reconstruction", "recipes", "python", "api", "pyrigi", "rust"],
     "Atlas": ["catalog", "The published folder <certificates>", "audit", "lab", "lab-catalog", "studies", "lab-intrinsics", "paper", "lab-formulas", "lab-benches"],
-    "Theory and proof": ["theory", "statements", "formulas", "certificate", "proof", "proofs", "second"],
+    "Theory and proof": ["theory", "statements", "formulas", "certificate", "contradictions", "proof", "proofs", "second"],
     "The project": ["benches", "site", "house", "changelog"],
 }
 

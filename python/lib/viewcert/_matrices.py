@@ -27,7 +27,7 @@ class ExactMatrix:
     shape: Annotated[Tuple[int, int], "Rows and columns."]
     row: Annotated[NDArray[np.int64], "The row of each entry, row by row; no entry is zero."] = field(repr=False)
     column: Annotated[NDArray[np.int64], "Its column."] = field(repr=False)
-    data: Annotated[NDArray[np.object_],
+    data: Annotated[NDArray[Any],
         "The entries, of dtype object: `int` where all are integers, and `Fraction` otherwise."] = field(repr=False)
 
     def to_scipy(self) -> scipy.sparse.csr_array:
