@@ -124,9 +124,11 @@ impl Followed {
         let pairs: HashSet<(u32, u32)> = pairs.map(|(a, b)| (a.min(b), a.max(b))).collect();
         if !self.pairs.is_subset(&pairs) {
             self.verifier = Verifier::new(self.options.clone())?;
+            self.pairs.clear();
             self.told = None;
         }
-        self.verifier.add_pairs(pairs.iter().copied())?;
+        self.verifier
+            .add_pairs(pairs.difference(&self.pairs).copied())?;
         self.pairs = pairs;
         Ok(())
     }
