@@ -7,8 +7,9 @@
 //! verified pair from the one to the other; then each model is a body, and its images and points
 //! are nodes. Two bodies with two common nodes are one (Theorem 4.1, rule 2), with one the scale is
 //! free. Images of a frame that were taken at one place are one camera; a model with a known base line
-//! is a scaled body, and two of these that share a node are one (13.16). With a database the graph of
-//! its tracks is decided with both models as known parts (Theorem 4.14). Numbers of the models say which
+//! is a scaled body, and two of these that share a node are one (13.16). With a database, three points of
+//! both that are not on a line fix everything; else the graph of its tracks is decided with both models as known
+//! parts (Theorem 4.14), and the answer supposes rotations of pairs. Numbers of the models say which
 //! images are at one place, and how well what is shared fits ([`misfit`](crate::misfit)): two models that
 //! contradict each other cannot both be right. Nothing is written.
 
@@ -32,6 +33,9 @@ use viewcert_formats::{NamedGraph, with_rigs};
 const SIMILARITY: usize = 7;
 const RIGID: usize = SIMILARITY - SCALE;
 const SCALE: usize = 1;
+
+/// The least sine of an angle between two lines that are taken for two.
+const OFF_LINE: f64 = 1e-3;
 
 /// How many images COLMAP's `model_merger` has to find in both models
 /// (`AlignReconstructionsViaReprojections`).
@@ -59,8 +63,8 @@ pub struct Merge {
     pub freedom: Option<usize>,
     /// These in words.
     pub free: &'static str,
-    /// What it rests on: `models` or `tracks`.
-    pub by: &'static str,
+    /// What it rests on.
+    pub by: By,
     /// What COLMAP's `model_merger` does with both.
     #[serde(skip)]
     pub merger: Merger,
@@ -76,6 +80,19 @@ impl Merge {
     pub fn agree(&self) -> bool {
         self.misfit.as_ref().is_none_or(|misfit| misfit.agree)
     }
+}
+
+/// What an answer about two models rests on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum By {
+    /// Images, and points that one feature sees in both models.
+    Models,
+    /// Three points of both by tracks that do not lie on a line where they are: what keeps them keeps the whole model,
+    /// its rotation too.
+    Points,
+    /// The graph of tracks: rotations are known from pairs, and places are in general position.
+    Tracks,
 }
 
 /// What COLMAP's `model_merger` does with two models, whose images it takes for the same by name and
@@ -188,6 +205,42 @@ impl<'a> Two<'a> {
         Ok(pairs.collect())
     }
 
+    /// Whether three points of both do not lie on a line, in either model. The similarity from the one model to the other
+    /// is unique then. Rounding moves the sine of an angle by less than a billionth of [`OFF_LINE`].
+    fn span_a_plane(&self, same: &[(u64, u64)]) -> bool {
+        // A point in two tracks, or a track with two points of one model, says that one of them is wrong.
+        let mut counts: [HashMap<u64, usize>; 2] = Default::default();
+        for &(a, b) in same {
+            *counts[0].entry(a).or_default() += 1;
+            *counts[1].entry(b).or_default() += 1;
+        }
+        let only = same
+            .iter()
+            .filter(|(a, b)| counts[0][a] == 1 && counts[1][b] == 1);
+        let placed =
+            only.filter_map(|(a, b)| Some([*self.places[0].get(a)?, *self.places[1].get(b)?]));
+        let placed: Vec<[[f64; 3]; 2]> = placed.collect();
+        let from = |side: usize, k: usize| {
+            let [origin, point] = [0, k].map(|k| placed[k][side]);
+            [0, 1, 2].map(|axis| point[axis] - origin[axis])
+        };
+        let dot = |u: [f64; 3], v: [f64; 3]| u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+        // The farthest point from the first, and one that is off the line through both.
+        let farthest = (0..placed.len()).max_by(|&j, &k| {
+            let [j, k] = [j, k].map(|k| dot(from(0, k), from(0, k)));
+            j.total_cmp(&k)
+        });
+        farthest.is_some_and(|far| {
+            (0..placed.len()).any(|k| {
+                [0, 1].into_iter().all(|side| {
+                    let [u, v] = [far, k].map(|k| from(side, k));
+                    let both = dot(u, u) * dot(v, v);
+                    both > 0.0 && dot(u, v).powi(2) < (1.0 - OFF_LINE * OFF_LINE) * both
+                })
+            })
+        })
+    }
+
     /// What both share, as it is measured.
     fn common(&self, same: impl Iterator<Item = (u64, u64)>, at_one_place: bool) -> Common<'a> {
         let same: BTreeSet<(u64, u64)> = same.collect();
@@ -283,7 +336,7 @@ impl<'a> Two<'a> {
             determined: freedom == 0,
             freedom: Some(freedom),
             free: free(freedom),
-            by: "models",
+            by: By::Models,
             merger,
         }
     }
@@ -333,8 +386,14 @@ pub fn of_tracks(
     watch: &Watch,
 ) -> Result<Merge> {
     let mut parts = cameras_of(two.models, input)?;
-    let mut merge = two.merge_with(two.in_one_track(tracks)?.into_iter());
+    let same = two.in_one_track(tracks)?;
+    let mut merge = two.merge_with(same.iter().copied());
     if merge.determined {
+        return Ok(merge);
+    }
+    if two.span_a_plane(&same) {
+        merge.by = By::Points;
+        (merge.determined, merge.freedom, merge.free) = (true, Some(0), free(0));
         return Ok(merge);
     }
     if merge.shared_images.len() > 1 && merge.shared_places == 1 {
@@ -359,7 +418,7 @@ pub fn of_tracks(
     };
     let options = Options::default().question(question).seed(seed);
     let verdict = decide(&input.graph, &options.watch(watch.clone()))?;
-    merge.by = "tracks";
+    merge.by = By::Tracks;
     merge.determined = verdict.components.iter().any(|component| {
         let nodes = component.nodes();
         let mut all = parts.iter().flatten();

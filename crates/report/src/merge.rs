@@ -10,7 +10,7 @@ use std::time::Duration;
 use viewcert::decide::Options;
 use viewcert::wording::printable;
 use viewcert_advice::export::shell;
-use viewcert_advice::merge::{MERGER, Merge, Merger};
+use viewcert_advice::merge::{By, MERGER, Merge, Merger};
 use viewcert_advice::misfit::{Misfit, OFF, TURNED};
 use viewcert_formats::NamedGraph;
 
@@ -110,11 +110,9 @@ impl MergeReport<'_> {
 
     /// What a good answer rests on.
     fn condition(&self) -> Option<&'static str> {
-        let by_tracks = self.merge.by == "tracks";
-        let condition = if by_tracks {
-            BY_TRACKS
-        } else {
-            condition::RIGHT
+        let condition = match self.merge.by {
+            By::Tracks => BY_TRACKS,
+            By::Models | By::Points => condition::RIGHT,
         };
         self.merge.is_good().then_some(condition)
     }
