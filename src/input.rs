@@ -8,9 +8,10 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use viewcert::watch::Watch;
-use viewcert_formats::colmap::{Database, Pipeline};
+use viewcert_ask::{Input, Inputs};
+use viewcert_formats::colmap::Pipeline;
 use viewcert_formats::{
-    Columns, Decimal, Format, ListOptions, Model, NamedGraph, ReadError, ReadOptions, TrackOptions,
+    Columns, Decimal, Format, ListOptions, NamedGraph, ReadError, ReadOptions, TrackOptions,
     read_graphs,
 };
 use viewcert_report::counted;
@@ -172,7 +173,7 @@ impl InputArguments {
 }
 
 /// The first of these options that is given: they are about tracks alone.
-pub fn of_tracks_alone(min_views: bool, max_spread: bool, no_rigs: bool) -> Option<&'static str> {
+fn of_tracks_alone(min_views: bool, max_spread: bool, no_rigs: bool) -> Option<&'static str> {
     let given = [
         ("--min-views", min_views),
         ("--max-spread", max_spread),
@@ -182,20 +183,6 @@ pub fn of_tracks_alone(min_views: bool, max_spread: bool, no_rigs: bool) -> Opti
     given.map(|(option, _)| option)
 }
 
-/// Refuses an option that is about tracks, for an input that has none.
-///
-/// # Errors
-/// If there is one.
-pub(super) fn ensure_not_of_tracks(option: Option<&str>, path: &Path) -> Result<()> {
-    match option {
-        None => Ok(()),
-        Some(option) => bail!(
-            "{}: {option} says how tracks count, and there are none; leave it out",
-            path.display()
-        ),
-    }
-}
-
 /// How graphs are read with these options.
 pub(super) fn reader(options: &ReadOptions) -> impl Fn(&Path) -> Inputs {
     move |path: &Path| {
@@ -203,12 +190,6 @@ pub(super) fn reader(options: &ReadOptions) -> impl Fn(&Path) -> Inputs {
         Box::new(graphs.map(|graph| graph.map(|graph| (graph, None))))
     }
 }
-
-/// A graph, and the database that it is of, if that is open for more.
-pub(super) type Input = (NamedGraph, Option<Database>);
-
-/// The graphs of a file, or why there is none.
-pub(super) type Inputs = Box<dyn Iterator<Item = Result<Input, ReadError>>>;
 
 /// The same for callers who read in their own way, know what to do with some of the inputs that give no
 /// graph, and want to know the path.
@@ -276,22 +257,6 @@ pub(super) fn recorded(json: bool, input: &Path, done: Result<u8>) -> Result<u8>
         out.flush().context("standard output")?;
     }
     done
-}
-
-/// Reads a model of COLMAP.
-///
-/// # Errors
-/// A path that is no folder; what is wrong in it.
-pub(super) fn read_model(session: &Session, path: &Path) -> Result<Model> {
-    ensure!(
-        path.is_dir(),
-        "{}: this is no folder; name the folder that holds cameras, images and points3D",
-        path.display()
-    );
-    session.reading(path);
-    let model = Model::read(path);
-    session.hide();
-    Ok(model?)
 }
 
 /// Why a graph has no answer, without its name.

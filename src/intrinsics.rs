@@ -7,13 +7,10 @@ use anyhow::{Context, Result};
 use clap::Args;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
-use viewcert::decide::{Options, Verdict};
+use viewcert::decide::Verdict;
 use viewcert::intrinsics::{Certified, Metric, Sensors};
 use viewcert::watch::Watch;
 use viewcert_formats::{NamedGraph, intrinsics, read_intrinsics};
-use viewcert_report::assumptions::out_of_planes;
-use viewcert_report::intrinsics::IntrinsicsLine;
-use viewcert_session::Session;
 
 /// What a file of classes looks like: `verify help intrinsics`.
 pub(super) const HELP: &str = "\
@@ -92,27 +89,4 @@ pub(super) fn decide(
         format!("{INTRINSICS}: a graph without pairs has no certificate; leave out {CERTIFICATE}")
     })?;
     Ok((found.metric.clone(), Some(found)))
-}
-
-/// What the pairs of a database determine by the prior focal lengths and cameras in it, or why that is not
-/// known: a database may be of other programs that write no cameras.
-///
-/// # Errors
-/// If the work was stopped.
-pub(super) fn of_database(
-    session: &Session,
-    path: &Path,
-    input: &NamedGraph,
-    verdict: &Verdict,
-) -> Result<Result<IntrinsicsLine, String>> {
-    let found = match intrinsics::of_database(path, input, true) {
-        Ok(found) => found.sensors,
-        Err(error) => return Ok(Err(error.problem.to_string())),
-    };
-    let seed = Options::default().seed;
-    let metric =
-        session.watched(|watch| Metric::with_sensors(&input.graph, verdict, &found, seed, watch));
-    let line = IntrinsicsLine::new(input, &found, &metric?, false);
-    let line = session.watched(|watch| out_of_planes(line, &input.graph, verdict, watch));
-    Ok(Ok(line?))
 }

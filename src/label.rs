@@ -1,6 +1,6 @@
 //! `verify label GRAPH...`: the names of small graphs, and the graphs of such names.
 
-use super::input::{InputArguments, Inputs, for_each_read};
+use super::input::{InputArguments, for_each_read};
 use anyhow::{Context, Result};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -33,7 +33,7 @@ pub(super) fn run(session: &Session, arguments: &LabelArguments) -> Result<u8> {
     for text in paths.iter().filter_map(|path| label(path)) {
         text.parse::<Label>().with_context(|| text.to_owned())?;
     }
-    let read = |path: &Path| -> Inputs {
+    let read = |path: &Path| -> viewcert_ask::Inputs {
         match label(path).and_then(|text| Some((text, text.parse::<Label>().ok()?))) {
             Some((text, label)) => {
                 let mut named = NamedGraph::new(text, label.graph(), Labels::Numbers { first: 0 });
@@ -43,7 +43,7 @@ pub(super) fn run(session: &Session, arguments: &LabelArguments) -> Result<u8> {
             None => Box::new(read_graphs(path, &options).map(|graph| Ok((graph?, None)))),
         }
     };
-    let each = |out: &mut _, _: &Path, input: Result<super::input::Input, _>, _| {
+    let each = |out: &mut _, _: &Path, input: Result<viewcert_ask::Input, _>, _| {
         let (input, _) = input?;
         let report = LabelReport::new(&input).ok_or_else(|| {
             TooLarge(format!(

@@ -2,8 +2,7 @@
 //!
 //! `verify`: arguments in, reports out; no mathematics. One file a command.
 //!
-//! [`main`] is the program. What a command finds out from several files is there for others too:
-//! [`OverviewAsked`], [`ListsAsked`], [`MergeAsked`], [`check_archive`].
+//! [`main`] is the program.
 
 mod advise;
 mod at_cameras;
@@ -13,21 +12,18 @@ mod catalog;
 mod certificates;
 mod check;
 mod command_line;
-mod contradictions;
 mod convert;
 mod decisions;
 mod draw;
 mod export;
+mod files;
 mod given;
 mod help;
 mod input;
 mod intrinsics;
 mod label;
 mod limits;
-mod lists;
-mod merge;
 mod models;
-mod overview;
 mod plan;
 mod question;
 mod self_check;
@@ -37,14 +33,9 @@ mod watch;
 mod witness;
 
 pub use bounds::Bounds;
-pub use check::{Archive, News, Statement, Terms, check_archive};
 pub use command_line::parse;
-pub use contradictions::Asked as ContradictionsAsked;
-pub use input::{InputArguments, of_tracks_alone};
+pub use input::InputArguments;
 pub use limits::LimitArguments;
-pub use lists::Asked as ListsAsked;
-pub use merge::Asked as MergeAsked;
-pub use overview::Asked as OverviewAsked;
 
 use anyhow::{Result, bail};
 use clap::{CommandFactory, Parser, Subcommand};
@@ -88,21 +79,21 @@ fn after_help() -> String {
 #[derive(Subcommand)]
 enum Command {
     /// What mappers will make of matches, whether to trust it, and what to do.
-    Overview(overview::OverviewArguments),
+    Overview(files::OverviewArguments),
     /// What to match, what all hangs on, what an image needs.
     Advise(advise::AdviseArguments),
     /// Follow a database while COLMAP matches, and say what joins.
     Watch(watch::WatchArguments),
     /// Prove that not all motions of pairs can be right, and name pairs to look at.
-    Contradictions(contradictions::ContradictionsArguments),
+    Contradictions(files::ContradictionsArguments),
     /// Write the parts to a folder, as COLMAP takes them.
     Export(export::ExportArguments),
     /// Take a model apart where its tracks do not hold it together.
     Split(split::SplitArguments),
     /// Whether what two models share fixes one against the other.
-    Merge(merge::MergeArguments),
+    Merge(files::MergeArguments),
     /// Whether lists of images are whole, and their overlaps fix scales.
-    Lists(lists::ListArguments),
+    Lists(files::ListArguments),
     /// Draw a graph with its components, as a page or a picture.
     Draw(draw::DrawArguments),
     /// Two sets of cameras that have the same fundamental matrices.
@@ -144,14 +135,14 @@ pub fn command() -> clap::Command {
 
 fn run(session: &Session, arguments: &CommandLine) -> Result<u8> {
     match &arguments.command {
-        Some(Command::Overview(arguments)) => overview::run(session, arguments),
+        Some(Command::Overview(arguments)) => files::overview(session, arguments),
         Some(Command::Advise(arguments)) => decisions::run(session, &arguments.plan()?),
         Some(Command::Watch(arguments)) => watch::run(session, arguments),
         Some(Command::Export(arguments)) => decisions::run(session, &arguments.plan()?),
         Some(Command::Split(arguments)) => split::run(session, arguments),
-        Some(Command::Contradictions(arguments)) => contradictions::run(session, arguments),
-        Some(Command::Merge(arguments)) => merge::run(session, arguments),
-        Some(Command::Lists(arguments)) => lists::run(session, arguments),
+        Some(Command::Contradictions(arguments)) => files::contradictions(session, arguments),
+        Some(Command::Merge(arguments)) => files::merge(session, arguments),
+        Some(Command::Lists(arguments)) => files::lists(session, arguments),
         Some(Command::Draw(arguments)) => decisions::run(session, &arguments.plan()?),
         Some(Command::Witness(arguments)) => decisions::run(session, &arguments.plan()?),
         Some(Command::Help(arguments)) => help::run(CommandLine::command(), arguments),

@@ -1,12 +1,13 @@
 //! `verify split MODEL DIR`: a model taken apart where its observations do not hold it together.
 
-use super::input::{read_model, recorded};
+use super::input::recorded;
 use anyhow::{Context, Result, anyhow, ensure};
 use clap::Args;
 use std::path::PathBuf;
 use std::time::Instant;
 use viewcert::at_cameras::finished::held;
 use viewcert_advice::split::{self, Free};
+use viewcert_ask::read_model;
 use viewcert_audit::softness::softness;
 use viewcert_formats::error::Problem;
 use viewcert_formats::{ReadOptions, read_graphs};

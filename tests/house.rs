@@ -134,6 +134,17 @@ fn nobody_imports_the_laboratory() {
     assert!(dependencies("lab").contains(&"viewcert-lab-catalog".to_owned()));
 }
 
+/// Python's functions stand on the libraries; of the program they run `main` and know nothing.
+#[test]
+fn python_imports_libraries_alone() {
+    for path in sources("python") {
+        let text = fs::read_to_string(&path).unwrap();
+        let named = text.matches("viewcert_cli").count();
+        let is_launcher = path.file_name().is_some_and(|name| name == "program.rs");
+        assert_eq!(named, usize::from(is_launcher), "{}", path.display());
+    }
+}
+
 /// Whoever reads a file needs only those below it.
 #[test]
 fn no_modules_import_each_other() {
@@ -172,6 +183,7 @@ fn libraries_know_neither_arguments_nor_floats_nor_databases() {
         ("crates/session", &["clap"]),
         ("crates/advice", &["clap"]),
         ("crates/report", &["clap"]),
+        ("crates/ask", &["clap"]),
         ("crates/catalog", &["clap"]),
         ("crates/audit", &["clap"]),
     ] {

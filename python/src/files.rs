@@ -10,10 +10,11 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-use viewcert_check::Failure;
-use viewcert_cli::{
-    ContradictionsAsked, ListsAsked, MergeAsked, News, OverviewAsked, Terms, check_archive,
+use viewcert_ask::archive::{News, Terms, check_archive};
+use viewcert_ask::{
+    contradictions as motions, lists as lists_of, merge as models, overview as whole,
 };
+use viewcert_check::Failure;
 use viewcert_formats::folder::Listing;
 use viewcert_report::{overview_page, screen};
 use viewcert_session::Session;
@@ -28,7 +29,7 @@ pub(crate) fn overview<'py>(
     kind: String,
 ) -> PyResult<Bound<'py, PyBytes>> {
     let [options, of_tracks] = reading.options()?;
-    let asked = OverviewAsked {
+    let asked = whole::Asked {
         options,
         of_tracks,
         of_tracks_alone: reading.of_tracks_alone(),
@@ -64,7 +65,7 @@ pub(crate) fn lists(
     let job = Job::new(py)?;
     let session = Session::under(job.watch());
     let work = move || -> anyhow::Result<Said> {
-        let asked = ListsAsked {
+        let asked = lists_of::Asked {
             graph: &graph,
             files: &files,
             options,
@@ -92,7 +93,7 @@ pub(crate) fn merge(
     let job = Job::new(py)?;
     let session = Session::under(job.watch());
     let work = move || -> anyhow::Result<Said> {
-        let asked = MergeAsked {
+        let asked = models::Asked {
             models: [&one, &other],
             database: database.as_deref(),
             options,
@@ -116,7 +117,7 @@ pub(crate) fn contradictions(
     let job = Job::new(py)?;
     let session = Session::under(job.watch());
     let work = move || -> anyhow::Result<(String, String)> {
-        let asked = ContradictionsAsked {
+        let asked = motions::Asked {
             file: &path,
             angle,
             certificate: certificate.as_deref(),

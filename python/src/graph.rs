@@ -11,7 +11,6 @@ use std::str::FromStr;
 use std::sync::Arc;
 use viewcert::certificate::hex;
 use viewcert::graph::{Labels, sha256};
-use viewcert_cli::of_tracks_alone;
 use viewcert_formats::colmap::Pipeline;
 use viewcert_formats::{
     ListOptions, NamedGraph, ReadError, ReadOptions, TrackOptions, pairs, read_graphs,
@@ -257,11 +256,13 @@ pub(crate) struct Reading {
 impl Reading {
     /// The first option that is about tracks alone, if one is given.
     pub(crate) fn of_tracks_alone(&self) -> Option<&'static str> {
-        of_tracks_alone(
-            self.min_views.is_some(),
-            self.max_spread.is_some(),
-            !self.rigs,
-        )
+        let given = [
+            ("min_views", self.min_views.is_some()),
+            ("max_spread", self.max_spread.is_some()),
+            ("rigs", !self.rigs),
+        ];
+        let given = given.into_iter().find(|(_, is_given)| *is_given);
+        given.map(|(option, _)| option)
     }
 
     /// The options for pairs, and for tracks.

@@ -1,23 +1,20 @@
 //! `verify check`: the independent checker on certificates.
 
-mod archive;
 mod bound;
 mod checker;
 mod proved;
-
-pub use archive::{Archive, News, Statement, Terms, check_archive};
 
 use super::given::GivenArguments;
 use super::input::InputArguments;
 use super::plan::IntrinsicsFrom;
 use anyhow::{Context, Result, bail, ensure};
-use archive::{not_as_expected, reason};
 use checker::Named;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use viewcert_ask::archive::{News, Terms, check_archive, not_as_expected, reason};
 use viewcert_check::program::{self, MAX_BYTES, is_certificate, no_certificate};
 use viewcert_check::{AnyCertificate, AnyVerified, Expected, Failure, Limits, Model};
 use viewcert_formats::folder::{Listing, is_list, name};

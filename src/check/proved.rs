@@ -4,13 +4,13 @@
 //! In: what a certificate proves of a graph, the graph and an explicit proof. Out: a line for
 //! each claim with the checkers that vouch for it. The program `viewcert-proved` is run; nothing of it is here.
 
-use super::archive::solutions;
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use std::ffi::OsString;
 use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 use std::process::Command;
+use viewcert_ask::archive::solutions;
 use viewcert_check::{AnyVerified, Model};
 use viewcert_formats::plain::pairs;
 use viewcert_formats::{NamedGraph, whole};

@@ -1,9 +1,8 @@
-//! `verify merge MODEL MODEL [DATABASE]`: whether two models can be made one.
+//! Whether two models can be made one.
 
-use super::input::{InputArguments, read_model, recorded};
-use anyhow::{Context, Result, ensure};
-use clap::Args;
-use std::path::{Path, PathBuf};
+use super::read_model;
+use anyhow::{Context, Result};
+use std::path::Path;
 use std::time::Instant;
 use viewcert::decide::Options;
 use viewcert_advice::merge::{self, Two};
@@ -11,25 +10,6 @@ use viewcert_formats::colmap::FeatureTracks;
 use viewcert_formats::{NamedGraph, ReadOptions, open_database, read_graphs};
 use viewcert_report::merge::MergeReport;
 use viewcert_session::Session;
-use viewcert_session::outputs;
-
-/// Two models, and what they come from.
-#[derive(Args)]
-pub(super) struct MergeArguments {
-    /// The folder of a COLMAP model. Nothing is written.
-    #[arg(value_name = "MODEL")]
-    one: PathBuf,
-    /// The folder of the other.
-    #[arg(value_name = "MODEL")]
-    other: PathBuf,
-    /// The database of both: its tracks may fix what the models alone leave free, and say what to match.
-    database: Option<PathBuf>,
-    #[command(flatten)]
-    input: InputArguments,
-    /// Print one JSON object.
-    #[arg(long)]
-    json: bool,
-}
 
 /// What is asked of two models, whoever asks.
 pub struct Asked<'a> {
@@ -96,28 +76,4 @@ impl Asked<'_> {
         session.hide();
         Ok(found)
     }
-}
-
-/// Reads both models, decides what is between them, and reports.
-pub(super) fn run(session: &Session, arguments: &MergeArguments) -> Result<u8> {
-    ensure!(
-        arguments.database.is_some() || !arguments.input.says_anything(),
-        "options say how a database is read, and none is named; leave them out, or name the database after \
-         both models"
-    );
-    let asked = Asked {
-        models: [&arguments.one, &arguments.other],
-        database: arguments.database.as_deref(),
-        options: arguments.input.of_tracks(),
-    };
-    let done = asked.of(session, |report| {
-        outputs::answer(
-            arguments.json,
-            report.merge.is_good(),
-            |out| report.write_json(out),
-            |out| report.write(out),
-        )
-    });
-    let [one, other] = asked.models.map(Path::display);
-    recorded(arguments.json, format!("{one} and {other}").as_ref(), done)
 }

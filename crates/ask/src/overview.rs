@@ -1,4 +1,4 @@
-//! `verify overview`: what pairs and tracks determine, on one screen.
+//! What pairs and tracks determine, on one screen.
 //!
 //! In: a database, or whatever else `verify` reads. Out: the verdicts on its pairs (theory 4) and
 //! on its cameras and points (theory 12), joints, and what follows for mapping. A database is opened
@@ -6,10 +6,8 @@
 //! kept waiting while something is decided.
 
 use super::contradictions::ANGLE;
-use super::input::{self, Input, InputArguments, Inputs};
-use super::intrinsics;
+use super::{Input, Inputs, ensure_not_of_tracks};
 use anyhow::{Context, Result, bail, ensure};
-use clap::Args;
 use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -17,44 +15,23 @@ use viewcert::Known;
 use viewcert::Verdict;
 use viewcert::decide::{Options, Question, decide};
 use viewcert::geometry::model::Model;
+use viewcert::intrinsics::Metric;
 use viewcert_advice::contradictions::contradictions;
 use viewcert_advice::export::shell;
 use viewcert_advice::{Advice, Request, Shapes, Tracks, foreseen};
 use viewcert_formats::colmap::{Database, DatabaseError, is_database};
 use viewcert_formats::error::{Problem, ReadError};
-use viewcert_formats::{NamedGraph, ReadOptions, open_database, read_graphs, with_rigs};
+use viewcert_formats::{
+    NamedGraph, ReadOptions, intrinsics, open_database, read_graphs, with_rigs,
+};
 use viewcert_report::Report;
-use viewcert_report::assumptions::{self, Scope};
+use viewcert_report::assumptions::{self, Scope, out_of_planes};
 use viewcert_report::contradictions::Contradicted;
 use viewcert_report::database::other_mapper;
+use viewcert_report::intrinsics::IntrinsicsLine;
 use viewcert_report::next::{File, next};
 use viewcert_report::overview::{Next, Overview, Wanted};
-use viewcert_report::{overview_page, screen};
 use viewcert_session::Session;
-use viewcert_session::exit::{GOOD, NOT};
-use viewcert_session::outputs;
-
-/// Options of the overview.
-#[derive(Args)]
-pub(super) struct OverviewArguments {
-    /// COLMAP databases, models, folders that hold one, or files of other pipelines.
-    #[arg(required = true, value_name = "DATABASE")]
-    inputs: Vec<PathBuf>,
-    #[command(flatten)]
-    input: InputArguments,
-    /// Print everything: parts, joints, notes, all verdicts.
-    #[arg(long)]
-    all: bool,
-    /// Print one JSON object an input.
-    #[arg(long)]
-    json: bool,
-    /// Write a page as well, which needs no other file.
-    #[arg(long, value_name = "FILE")]
-    html: Option<PathBuf>,
-}
-
-/// The page in messages.
-const PAGE: &str = "--html";
 
 /// What is asked of inputs, whoever asks.
 pub struct Asked {
@@ -72,21 +49,35 @@ impl Asked {
     ///
     /// # Errors
     /// If it cannot be read or decided; those of `say`.
-    pub fn of(
+    pub fn of<T>(
         &self,
         session: &Session,
         path: &Path,
-        mut say: impl FnMut(&Overview<'_>) -> Result<()>,
-    ) -> Result<()> {
+        say: impl FnOnce(&Overview<'_>) -> Result<T>,
+    ) -> Result<T> {
         let start = Instant::now();
         let read = self.inputs(path).next();
         let read = read.with_context(|| format!("{}: no graph", path.display()))?;
-        let source = source(session, self, path, read)?;
-        let mut say = |found: &Overview<'_>| say(found).map(|()| GOOD);
-        overview(session, self, source, start, &mut say).map(drop)
+        self.of_read(session, (path, read, start), say)
     }
 
-    fn inputs(&self, path: &Path) -> Inputs {
+    /// The same of what was read, or not, since `start`.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn of_read<T>(
+        &self,
+        session: &Session,
+        (path, read, start): (&Path, Result<Input, ReadError>, Instant),
+        say: impl FnOnce(&Overview<'_>) -> Result<T>,
+    ) -> Result<T> {
+        let source = source(session, self, path, read)?;
+        overview(session, self, source, start, say)
+    }
+
+    /// The pairs of every graph of a file, and the database that they are of.
+    #[must_use]
+    pub fn inputs(&self, path: &Path) -> Inputs {
         match open_database(path, &self.options) {
             Some(database) => {
                 let opened = database.map(|database| (database.pairs(), Some(database)));
@@ -128,51 +119,6 @@ impl Source {
             beside: Vec::new(),
         }
     }
-}
-
-/// Says what every input determines; a bad one is reported and does not stop the others.
-pub(super) fn run(session: &Session, arguments: &OverviewArguments) -> Result<u8> {
-    let page = arguments.html.as_deref();
-    let inputs = arguments.inputs.iter().map(PathBuf::as_path);
-    outputs::ensure_apart(&[(PAGE, page)], inputs)?;
-    let too_many = |what: &str| {
-        let page = page?.display();
-        Some(format!(
-            "{PAGE} {page}: a page is about one input, and there are {what}; run the program on each"
-        ))
-    };
-    if let Some(reason) = too_many(&format!("{} inputs", arguments.inputs.len())) {
-        ensure!(arguments.inputs.len() == 1, reason);
-    }
-    let mut out = outputs::text(&[page]);
-    let asked = Asked {
-        options: arguments.input.read_options(),
-        of_tracks: arguments.input.of_tracks(),
-        of_tracks_alone: arguments.input.of_tracks_alone(),
-    };
-    let each = |out: &mut _, path: &Path, read: Result<Input, ReadError>, start| {
-        let source = source(session, &asked, path, read)?;
-        overview(session, &asked, source, start, &mut |found| {
-            if let Some(file) = page {
-                write_page(session, file, found)?;
-            }
-            if arguments.json {
-                found.write_json(out)?;
-            } else {
-                screen::write(out, found, arguments.all)?;
-            }
-            let contradicts = found.contradictions.as_ref();
-            let is_good = contradicts.is_none_or(|found| found.report().is_good());
-            Ok(if found.determined() && is_good {
-                GOOD
-            } else {
-                NOT
-            })
-        })
-    };
-    let read = |path: &Path| asked.inputs(path);
-    let inputs = (&*arguments.inputs, arguments.json);
-    input::for_each_read(session, &read, inputs, &too_many, &mut out, each)
 }
 
 /// Reads the tracks that belong to what was read.
@@ -223,7 +169,7 @@ fn source(
         Some(database) => read_tracks(session, asked, path, database)?,
     };
     if tracks.is_err() {
-        input::ensure_not_of_tracks(asked.of_tracks_alone, path)?;
+        ensure_not_of_tracks(asked.of_tracks_alone, path)?;
     }
     Ok(Source {
         pairs: Some(pairs),
@@ -290,13 +236,13 @@ fn read_tracks(
 }
 
 /// Decides everything about one input that has been read since `start`, and says it.
-fn overview(
+fn overview<T>(
     session: &Session,
     wish: &Asked,
     mut source: Source,
     start: Instant,
-    say: &mut dyn FnMut(&Overview<'_>) -> Result<u8>,
-) -> Result<u8> {
+    say: impl FnOnce(&Overview<'_>) -> Result<T>,
+) -> Result<T> {
     let decided = |input: &NamedGraph, model: Model| {
         let known = with_rigs(Known::default(), input)?;
         let options = match model {
@@ -312,7 +258,7 @@ fn overview(
     });
     let pairs = pairs.transpose()?;
     let intrinsics = match (&pairs, &source.database) {
-        (Some((input, [verdict, _])), Some(_)) => Some(intrinsics::of_database(
+        (Some((input, [verdict, _])), Some(_)) => Some(intrinsics_of_database(
             session,
             &source.path,
             input,
@@ -431,14 +377,6 @@ fn overview(
     say(&found)
 }
 
-/// Writes the page.
-fn write_page(session: &Session, file: &Path, found: &Overview) -> Result<()> {
-    session.doing(format!("drawing {}", found.name));
-    let page = overview_page::html(found, found.joints)?;
-    session.hide();
-    session.outputs().write(file, |out| out.write_all(&page))
-}
-
 /// What was merged, ignored or guessed, and where the choice of pairs is not that of both mappers.
 fn notes(source: &Source) -> Vec<String> {
     let mut notes = Vec::new();
@@ -456,4 +394,27 @@ fn notes(source: &Source) -> Vec<String> {
     let other = other.filter(|note| !notes.contains(note));
     notes.extend(other);
     notes
+}
+
+/// What the pairs of a database determine by the prior focal lengths and cameras in it, or why that is not
+/// known: a database may be of other programs that write no cameras.
+///
+/// # Errors
+/// If the work was stopped.
+fn intrinsics_of_database(
+    session: &Session,
+    path: &Path,
+    input: &NamedGraph,
+    verdict: &Verdict,
+) -> Result<Result<IntrinsicsLine, String>> {
+    let found = match intrinsics::of_database(path, input, true) {
+        Ok(found) => found.sensors,
+        Err(error) => return Ok(Err(error.problem.to_string())),
+    };
+    let seed = Options::default().seed;
+    let metric =
+        session.watched(|watch| Metric::with_sensors(&input.graph, verdict, &found, seed, watch));
+    let line = IntrinsicsLine::new(input, &found, &metric?, false);
+    let line = session.watched(|watch| out_of_planes(line, &input.graph, verdict, watch));
+    Ok(Ok(line?))
 }

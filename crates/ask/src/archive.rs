@@ -169,7 +169,8 @@ fn check(text: &[u8], terms: &Terms) -> Result<AnyVerified, Failure> {
 }
 
 /// Why a certificate is right, and still not the one that was asked for.
-pub(super) fn not_as_expected(found: &[String]) -> String {
+#[must_use]
+pub fn not_as_expected(found: &[String]) -> String {
     format!("not what is expected: {}", found.join("; "))
 }
 
@@ -181,7 +182,8 @@ fn rejected(reason: String) -> Failure {
 }
 
 /// What is proved of the number of solutions, "2", "1-3" or "1-"; a number is proved by `solvable` as well.
-pub(super) fn solutions(verified: &AnyVerified) -> Option<String> {
+#[must_use]
+pub fn solutions(verified: &AnyVerified) -> Option<String> {
     let AnyVerified::Generic(verified) = verified else {
         return None;
     };
@@ -198,7 +200,8 @@ pub(super) fn solutions(verified: &AnyVerified) -> Option<String> {
 }
 
 /// Why one is not verified, in words that can be printed.
-pub(super) fn reason(failure: &Failure) -> String {
+#[must_use]
+pub fn reason(failure: &Failure) -> String {
     printable(&failure.to_string())
 }
 

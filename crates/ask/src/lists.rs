@@ -1,8 +1,7 @@
-//! `verify lists GRAPH FILE...`: whether lists of images are whole, and what their overlaps fix.
+//! Whether lists of images are whole, and what their overlaps fix.
 
-use super::input::{InputArguments, ensure_not_of_tracks, recorded};
+use super::ensure_not_of_tracks;
 use anyhow::{Context, Result, bail, ensure};
-use clap::Args;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
@@ -15,23 +14,6 @@ use viewcert_advice::{Tracks, foreseen};
 use viewcert_formats::{NamedGraph, ReadOptions, open_database, read_graphs};
 use viewcert_report::lists::ListReport;
 use viewcert_session::Session;
-use viewcert_session::outputs;
-
-/// Lists, and what they are about.
-#[derive(Args)]
-pub(super) struct ListArguments {
-    /// A COLMAP database, of which each list is decided by its own tracks, or any other graph, of which
-    /// it is decided by its own pairs.
-    graph: PathBuf,
-    /// Lists of images as COLMAP's mappers take them: a name on each line.
-    #[arg(required = true, value_name = "FILE")]
-    files: Vec<PathBuf>,
-    #[command(flatten)]
-    input: InputArguments,
-    /// Print one JSON object.
-    #[arg(long)]
-    json: bool,
-}
 
 /// What is asked of lists, whoever asks.
 pub struct Asked<'a> {
@@ -83,26 +65,6 @@ impl Asked<'_> {
             time: start.elapsed(),
         })
     }
-}
-
-/// Reads the graph and the lists, and reports what they determine.
-pub(super) fn run(session: &Session, arguments: &ListArguments) -> Result<u8> {
-    let asked = Asked {
-        graph: &arguments.graph,
-        files: &arguments.files,
-        options: arguments.input.read_options(),
-        of_tracks: arguments.input.of_tracks(),
-        of_tracks_alone: arguments.input.of_tracks_alone(),
-    };
-    let done = asked.of(session, |report| {
-        outputs::answer(
-            arguments.json,
-            report.lists.determined,
-            |out| report.write_json(out),
-            |out| report.write(out),
-        )
-    });
-    recorded(arguments.json, &arguments.graph, done)
 }
 
 /// The one graph of a file.
