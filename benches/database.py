@@ -5,42 +5,22 @@
 
 Images stand along a path. Each point is seen by so many of 21 images in a row, and every two of
 these have a match of it, before and after verification; before it two thirds as many more, which
-are wrong. Pairs with fewer than 15 matches are left out. The schema is that of COLMAP 4.2, with
-the tables that a reader of pairs and tracks may look at. Keypoints and descriptors are empty.
+are wrong. Pairs with fewer than 15 matches are left out. It needs pycolmap 4.2, which writes the file.
 """
 
 import argparse
 import array
 import random
-import sqlite3
-import struct
 from pathlib import Path
 
-PAIR_FACTOR = 2147483647
+import numpy as np
+import pycolmap
 
 # How many images in a row may see a point.
 WIDTH = 21
 
 # Matches that a pair must have.
 LEAST = 15
-
-SCHEMA = """
-create table cameras (camera_id integer primary key autoincrement not null, model integer not null,
-    width integer not null, height integer not null, params blob, prior_focal_length integer not null);
-create table images (image_id integer primary key autoincrement not null, name text not null unique,
-    camera_id integer not null);
-create table keypoints (image_id integer primary key not null, rows integer not null,
-    cols integer not null, data blob);
-create table descriptors (image_id integer primary key not null, rows integer not null,
-    cols integer not null, data blob);
-create table matches (pair_id integer primary key not null, rows integer not null,
-    cols integer not null, data blob);
-create table two_view_geometries (pair_id integer primary key not null, rows integer not null,
-    cols integer not null, data blob, config integer not null, F blob, E blob, H blob, qvec blob,
-    tvec blob, camera1 blob, camera2 blob);
-pragma user_version = 4020100;
-"""
-
 
 def matches(images, points, views, draw):
     """How many features each image has, and for each pair the features that are one point."""
@@ -57,6 +37,33 @@ def matches(images, points, views, draw):
     return features, {pair: found for pair, found in pairs.items() if len(found) >= 2 * LEAST}
 
 
+def write(database, features, pairs, draw):
+    """One camera, a frame for each image, keypoints at random, and both stages of matches."""
+    camera = pycolmap.Camera.create_from_model_name(0, "SIMPLE_RADIAL", 1300.0, 1600, 1200)
+    camera.camera_id = database.write_camera(camera)
+    rig = pycolmap.Rig()
+    rig.add_ref_sensor(camera.sensor_id)
+    rig.rig_id = database.write_rig(rig)
+    for image, count in enumerate(features, 1):
+        written = pycolmap.Image(name=f"path/{image:06}.jpg", camera_id=camera.camera_id, image_id=image)
+        database.write_image(written, use_image_id=True)
+        frame = pycolmap.Frame(rig_id=rig.rig_id)
+        frame.add_data_id(written.data_id)
+        database.write_frame(frame)
+        database.write_keypoints(image, draw.random((count, 2), dtype=np.float32) * 1200)
+    for (a, b), found in sorted(pairs.items()):
+        found = np.frombuffer(found, np.uint32).reshape(-1, 2)
+        ends = [features[a], features[b]]
+        wrong = draw.integers(0, ends, (2 * len(found) // 3, 2), dtype=np.uint32)
+        database.write_matches(a + 1, b + 1, np.concatenate([found, wrong]))
+        geometry = pycolmap.TwoViewGeometry()
+        geometry.config = int(draw.integers(2, 4))
+        geometry.inlier_matches = found
+        geometry.F, geometry.E, geometry.H = draw.random((3, 3, 3))
+        geometry.cam2_from_cam1 = pycolmap.Rigid3d(pycolmap.Rotation3d(), draw.random(3))
+        database.write_two_view_geometry(a + 1, b + 1, geometry)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("file", type=Path)
@@ -65,30 +72,11 @@ def main():
     parser.add_argument("--views", type=int, default=7, choices=range(2, WIDTH + 1))
     parser.add_argument("--seed", type=int, default=1)
     arguments = parser.parse_args()
-    draw = random.Random(arguments.seed)
-    features, pairs = matches(arguments.images, arguments.points, arguments.views, draw)
+    features, pairs = matches(arguments.images, arguments.points, arguments.views, random.Random(arguments.seed))
     arguments.file.unlink(missing_ok=True)
-    database = sqlite3.connect(arguments.file)
-    database.executescript(SCHEMA)
-    database.execute("insert into cameras values (1, 2, 1600, 1200, ?, 0)",
-                     (struct.pack("<4d", 1300, 800, 600, 0),))
-    for image, count in enumerate(features, 1):
-        database.execute("insert into images values (?, ?, 1)", (image, f"path/{image:06}.jpg"))
-        database.execute("insert into keypoints values (?, ?, 6, x'')", (image, count))
-        database.execute("insert into descriptors values (?, ?, 128, x'')", (image, count))
-    for (a, b), found in sorted(pairs.items()):
-        pair = PAIR_FACTOR * (a + 1) + b + 1
-        rows = len(found) // 2
-        wrong = array.array("I")
-        for _ in range(2 * rows // 3):
-            wrong.extend((draw.randrange(features[a]), draw.randrange(features[b])))
-        raw = found + wrong
-        matrices = [draw.randbytes(size) for size in (72, 72, 72, 32, 24)]
-        database.execute("insert into matches values (?, ?, 2, ?)",
-                         (pair, len(raw) // 2, raw.tobytes()))
-        database.execute("insert into two_view_geometries values (?, ?, 2, ?, ?, ?, ?, ?, ?, ?, null, null)",
-                         (pair, rows, found.tobytes(), draw.choice((2, 3)), *matrices))
-    database.commit()
+    database = pycolmap.Database.open(arguments.file)
+    with pycolmap.DatabaseTransaction(database):
+        write(database, features, pairs, np.random.default_rng(arguments.seed))
     database.close()
     size = arguments.file.stat().st_size
     print(f"{arguments.images} images, {len(pairs)} pairs, {size / 1e6:.0f} MB")
