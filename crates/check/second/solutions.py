@@ -1,4 +1,4 @@
-"""Section 12 of docs/certificate.md: bounds for the number of solutions, as the list of its conditions (S1) to (S26), and (U1) to (U4).
+"""Section 12 of docs/certificate.md: bounds for the number of solutions, as the list of its conditions (S1) to (S26), and (U1) to (U6).
 
 In comes what the piece is made of (the nodes of its members) and the member `solutions`; out come `at_least` and
 `at_most`. Rows of matrices are dicts from column to residue; only what has to vanish, or not to, is computed.
@@ -7,6 +7,8 @@ In comes what the piece is made of (the nodes of its members) and the member `so
 import itertools
 
 from cores import Core
+from draws import draw_centres
+from matrices import bearing_rows
 from notation import TooLarge, a_big, a_list, an_int, distinct, increasing, is_prime, members, need
 
 EXPONENTS = 4096  # (S12)
@@ -184,8 +186,8 @@ class Numbered:
     def left(self):
         return {member: nodes for member, nodes in enumerate(self.sets) if member not in self.used}
 
-    def merge_all(self, merges, where, meter, part=None):
-        """(S1) to (S3), and (U4) in a round, whose part has these nodes."""
+    def merge_all(self, merges, where, meter, part=None, stresses=None):
+        """(S1) to (S3), and (U4) and (U6) in a round, whose part has these nodes."""
         for k, merge in enumerate(a_list(merges, f"{where}: merges")):
             at = f"{where}: merge {k}"
             rule, sources, nodes, inner = members(merge, "rule with at solutions", at)
@@ -200,6 +202,11 @@ class Numbered:
                 check_part(inner, nodes, chosen, at, meter)
             elif rule == "removed" and part is not None:
                 check_removed(inner, nodes, chosen, part, at)
+            elif rule == "stressed" and part is not None:
+                need(stresses is not None, f"{at}: (U6) there are no stresses")
+                need(len(nodes) >= 3 and distinct(nodes), f"{at}: (U6) at has less than three nodes, or one twice")
+                stresses.check_node(nodes[0], nodes[1:], f"{at}: (U6)", meter)
+                check_pairs(inner, [{nodes[0], end} for end in nodes[1:]], chosen, f"{at}: (U6)")
             else:
                 check_rule(rule, inner, nodes, chosen, at)
             self.used.update(sources)
@@ -292,16 +299,18 @@ class Round:
 
 
 def check_rounds(rounds, numbered, check, where, meter):
-    """(U1) to (U4): what is determined together with the neighbours of a node in a part that is rigid without it."""
+    """(U1) to (U6): what is determined together with the neighbours of a node in a part that is rigid without it."""
     need(a_list(rounds, where), f"{where}: there is none")
     for k, one in enumerate(rounds):
         at = f"{where}: round {k}"
-        sets, evidence, merges = members(one, "sets evidence merges", at)
+        stressed = type(one) is dict and "stresses" in one
+        sets, evidence, merges, *stresses = members(one, "sets evidence merges" + " stresses" * stressed, at)
         found = Round(sets, numbered.left(), check.core_limit, at, meter)
         core = Core(found, found.group, f"{at}: (U2)")
         ranks = check.lower_bounds(core, a_list(evidence, f"{at}: evidence"), f"{at}: (U3) evidence")
         need(check.required(core.n) in ranks, f"{at}: (U3) the part is not shown to be rigid")
-        numbered.merge_all(merges, at, meter, found.part)
+        stresses = Stresses(stresses[0], evidence, core, found, check, f"{at}: (U5)", meter) if stressed else None
+        numbered.merge_all(merges, at, meter, found.part, stresses)
 
 
 def check_removed(inner, nodes, chosen, part, where):
@@ -311,6 +320,52 @@ def check_removed(inner, nodes, chosen, part, where):
     need(v not in part, f"{where}: (U4) node {v} is in the part")
     need(part.issuperset(ends), f"{where}: (U4) a neighbour is not in the part")
     check_pairs(inner, [{v, end} for end in ends], chosen, f"{where}: (U4)")
+
+
+class Stresses:
+    """(U5): stresses at the centres at which the core of a round has its rank, added up over each set at each node."""
+
+    def __init__(self, vectors, evidence, core, found, check, where, meter):
+        one = len(evidence) == 1 and evidence[0]["kind"] == "plane-flow"
+        need(one, f"{where} the evidence is not one plane-flow")
+        p, seed, draw = check.prime_seed_draw(*(evidence[0][name] for name in ("prime", "seed", "draw")), where)
+        centres = draw_centres(check.graph.hash, core.hash, core.n, p, seed, draw, 3, core.places)
+        directions = bearing_rows(core, centres, p)[1]
+        self.p, self.core, self.found, self.sums = p, core, found, []
+        for s, vector in enumerate(a_list(vectors, where)):
+            at = f"{where} stress {s}"
+            need(len(a_list(vector, at)) == 8 * core.m, f"{at} has another length than 8 m'")
+            meter.charge(DENSE * 8 * core.m)
+            vector = [a_residue(x, p, at) for x in vector]
+            sums = {}
+            for e, (i, j) in enumerate(core.edges):
+                x, (a, b) = vector[8 * e : 8 * e + 8], directions[e]
+                w = [[x[2 * k] * a[r] + x[2 * k + 1] * b[r] for k in range(4)] for r in range(3)]
+                trace = sum(w[r][r] - w[r][3] * centres[j][r] for r in range(3))
+                need(trace % p == 0, f"{at} is not orthogonal to the cameras of core edge {e}")
+                for v, sign in ((i, 1), (j, -1)):
+                    for place in (v, None), (v, core.owner[i, j]):
+                        matrix = sums.setdefault(place, [[0] * 4 for _ in range(3)])
+                        for r, k in itertools.product(range(3), range(4)):
+                            matrix[r][k] = (matrix[r][k] + sign * w[r][k]) % p
+            left = [row for (_, key), matrix in sums.items() if key is None for row in matrix]
+            need(not any(map(any, left)), f"{at} does not add up to zero at a node")
+            self.sums.append(sums)
+
+    def check_node(self, v, ends, where, meter):
+        """(U6): one of the nodes in each set with v, and the rank of what the stresses are at v."""
+        need(v in self.core.nodes and self.sums, f"{where} node {v} is not in the core, or there is no stress")
+        node = self.core.nodes.index(v)
+        sets = [key for key in self.found.group if v in self.found.nodes(key)]
+        fits = all(any(end in self.found.nodes(key) for end in ends) for key in sets)
+        need(fits, f"{where} a set with node {v} has none of the others")
+        inside = all(any(end in self.found.nodes(key) for key in sets) for end in ends)
+        need(inside, f"{where} node {v} and another one are in no set")
+        rows = []
+        for sums, r in itertools.product(self.sums, range(3)):
+            rows.append(dict(enumerate(itertools.chain(*(sums[node, key][r] for key in sets)))))
+        rank = rank_of(rows, self.p, meter)
+        need(rank == 4 * len(sets) - 4, f"{where} the rank at node {v} is {rank}")
 
 
 # Products ------------------------------------------------------------------------------------------------------------

@@ -161,6 +161,50 @@ class Rounds(unittest.TestCase):
             inside = lambda other: other["solutions"][place][0]["solutions"].update(rounds=[])  # noqa: E731
             self.refused(inside, "rounds inside of solutions", read(name))
 
+    def test_stresses(self):
+        """(U5) and (U6): stresses at the point where the rank is shown, and the nodes 4 and 8."""
+        done = check.check(json.dumps(read("stresses")).encode())
+        self.assertEqual((done.claim["verdict"]["value"], done.claim["solutions"]["at_most"]), ("solvable", 1))
+
+        def put(value, *path):
+            def change(other):
+                place = other["solutions"]["rounds"][0]
+                for name in path[:-1]:
+                    place = place[name]
+                place[path[-1]] = value
+            return change
+
+        def both(*changes):
+            return lambda other: [change(other) for change in changes]
+
+        one = read("stresses")["solutions"]["rounds"][0]
+        stresses, node_2 = one["stresses"], {"rule": "stressed", "with": [7, 12], "at": [2, 1, 6], "solutions": None}
+        elsewhere = put(1, "evidence", 0, "draw"), put("10009", "evidence", 0, "prime")
+        for change, words in (
+            # The pivots, and so the rank, are as good at another draw, and modulo another prime.
+            *((change, "(U5) stress 0 is not orthogonal to the cameras of core edge 0") for change in elsewhere),
+            *((both(change, put([], "stresses")), "(U6) node 4 is not in the core, or there is no stress") for change in elsewhere),
+            (put(one["evidence"] * 2, "evidence"), "(U5) the evidence is not one plane-flow"),
+            (put(stresses[0][1:], "stresses", 0), "(U5) stress 0 has another length than 8 m'"),
+            (put("10007", "stresses", 0, 7), "(U5) stress 0 is out of range"),
+            (put("1", "stresses", 0, 0), "(U5) stress 0 is not orthogonal to the cameras of core edge 0"),
+            (put(["0"] * 8 + stresses[0][8:], "stresses", 0), "(U5) stress 0 does not add up to zero at a node"),
+            (put([4, 7], "merges", 0, "at"), "(U6) at has less than three nodes, or one twice"),
+            (put([4, 7, 8, 8], "merges", 0, "at"), "(U6) at has less than three nodes, or one twice"),
+            (put([4, 7, 8], "merges", 0, "at"), "(U6) a set with node 4 has none of the others"),
+            (put([4, 7, 8, 9, 0], "merges", 0, "at"), "(U6) node 4 and another one are in no set"),
+            (put([10, 7, 8], "merges", 0, "at"), "(U6) node 10 is not in the core"),
+            (put([9, 10], "merges", 0, "with"), "(U6) a pair lies in no member"),
+            (put([0, 9, 10, 11], "merges", 0, "with"), "(U6) a member contains none of the pairs"),
+            (put(value(), "merges", 0, "solutions"), "(U6) solutions is not null"),
+            (put(stresses[:2], "stresses"), "(U6) the rank at node 4 is 6"),
+            (put(stresses[2:] * 3, "stresses"), "(U6) the rank at node 4 is 3"),
+            (put(node_2, "merges", 0), "(U6) the rank at node 2"),
+            (lambda other: other["solutions"]["rounds"][0].pop("stresses"), "(U6) there are no stresses"),
+        ):
+            self.refused(change, words, read("stresses"))
+        self.refused(lambda other: other["solutions"]["merges"].insert(0, node_2), "(S2) no such rule", read("part"))
+
     def test_one_solution(self):
         self.refused(lambda other: other["solutions"]["merges"].pop(), "one-solution, and 3 members are left")
 

@@ -115,7 +115,7 @@ fn check_chain(chain: &[usize], nodes: &[u32], setting: &Setting) -> Checked<()>
 }
 
 /// The ends of the edges among members, and the nodes that lie in two or more of the bodies.
-fn core_nodes(members: &[Joined]) -> Vec<u32> {
+pub(crate) fn core_nodes(members: &[Joined]) -> Vec<u32> {
     // Nodes that come twice, if the ends of edges do in any case.
     let edges = members.iter().filter(|member| !member.is_body);
     let all = members.iter().chain(edges).map(|member| member.nodes);

@@ -131,7 +131,7 @@ fn what_the_laboratory_has_is_refused_by_name() {
 #[test]
 fn all_are_verified() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/solutions");
-    assert_eq!(fs::read_dir(folder).unwrap().count(), 11);
+    assert_eq!(fs::read_dir(folder).unwrap().count(), 12);
     for (name, solutions) in [
         ("linear", 1),
         ("part", 1),
@@ -144,6 +144,7 @@ fn all_are_verified() {
         ("choices", 1),
         ("link", 1),
         ("rounds", 1),
+        ("stresses", 1),
     ] {
         let text = text_of(name).to_string();
         let verified =
@@ -1507,6 +1508,100 @@ fn u1_to_u4_rounds() {
             "{reason}"
         );
     }
+}
+
+/// Stresses, at the point where the rank is shown, and what they show at the nodes 4 and 8.
+#[test]
+fn u5_and_u6_stresses() {
+    let rounds = "/solutions/rounds/0";
+    let wrong = |changes: &[(&str, Value)], wanted: &str| {
+        let changes: Vec<_> = changes
+            .iter()
+            .map(|(member, new)| (format!("{rounds}/{member}"), new.clone()))
+            .collect();
+        let changes: Vec<_> = changes
+            .iter()
+            .map(|(pointer, new)| (&pointer[..], new.clone()))
+            .collect();
+        let wanted = format!("solutions.rounds[0]{wanted}");
+        refused("stresses", &changes, &wanted);
+    };
+    // The rank at another draw, and modulo another prime: the pivots are as good there, and so is the
+    // evidence, but the stresses are none.
+    let elsewhere = [
+        ("evidence/0/draw", json!(1)),
+        ("evidence/0/prime", json!("10009")),
+    ];
+    let camera = ".stresses[0]: it is not orthogonal to the cameras of edge 0";
+    for change in elsewhere {
+        wrong(std::slice::from_ref(&change), camera);
+        let (member, new) = change;
+        let mut value = changed("stresses", &[(&format!("{rounds}/{member}"), new)]);
+        at(&mut value, rounds)["stresses"] = json!([]);
+        let wanted = "solutions.rounds[0].merges[0]: no stress is at node 4 of the core";
+        assert!(reason(&value).starts_with(wanted), "{}", reason(&value));
+    }
+    let evidence = value_at("stresses", &format!("{rounds}/evidence/0"));
+    let twice = json!([evidence, evidence]);
+    let one = ": stresses are not at the centres of one `plane-flow`";
+    wrong(&[("evidence", twice)], one);
+    // What a stress is.
+    let stresses = value_at("stresses", &format!("{rounds}/stresses"));
+    let first = |change: &dyn Fn(&mut Vec<Value>)| {
+        let mut entries = stresses[0].as_array().unwrap().clone();
+        change(&mut entries);
+        [("stresses/0", json!(entries))]
+    };
+    let shorter = first(&|entries| drop(entries.pop()));
+    wrong(&shorter, ".stresses[0]: not eight numbers for each edge");
+    let larger = first(&|entries| entries[7] = json!("10007"));
+    wrong(&larger, ".stresses[0]: a number is no residue");
+    wrong(&first(&|entries| entries[0] = json!("1")), camera);
+    let without = first(&|entries| entries[..8].fill(json!("0")));
+    let sum = ".stresses[0]: it does not add up to zero at a node";
+    wrong(&without, sum);
+    // What is merged.
+    let pairs = ["merges/0/at", "merges/0/with"];
+    let few = ".merges[0]: `at` has less than three nodes, or one twice";
+    for at in [json!([4, 7]), json!([4, 7, 8, 8])] {
+        wrong(&[(pairs[0], at)], few);
+    }
+    let missing = ".merges[0]: a set with 4 has none of the nodes behind it";
+    wrong(&[(pairs[0], json!([4, 7, 8]))], missing);
+    let outside = ".merges[0]: 4 and 0 are in no set of the round";
+    wrong(&[(pairs[0], json!([4, 7, 8, 9, 0]))], outside);
+    let none = ".merges[0]: no stress is at node 10 of the core";
+    wrong(&[(pairs[0], json!([10, 7, 8]))], none);
+    let pair = ".merges[0]: no member of `with` holds 4 and 9";
+    wrong(&[(pairs[1], json!([9, 10]))], pair);
+    let more = ".merges[0]: member 0 holds no pair of the rule";
+    wrong(&[(pairs[1], json!([0, 9, 10, 11]))], more);
+    let solutions = json!({"merges": [], "upper": null, "lower": null});
+    wrong(
+        &[("merges/0/solutions", solutions)],
+        ".merges[0]: evidence for a rule",
+    );
+    // Three rows a stress: two of them, and one three times, are not enough.
+    for (stresses, rank) in [
+        (json!([stresses[0], stresses[1]]), 6),
+        (json!([stresses[2], stresses[2], stresses[2]]), 3),
+    ] {
+        let rank = format!(".merges[0]: the stresses have rank {rank} at node 4, not 8");
+        wrong(&[("stresses", stresses)], &rank);
+    }
+    let other = json!({"rule": "stressed", "with": [7, 12], "at": [2, 1, 6], "solutions": null});
+    let rank = ".merges[0]: the stresses have rank";
+    wrong(&[("merges/0", other.clone())], rank);
+    // Without stresses, and in no round.
+    let mut value = text_of("stresses");
+    at(&mut value, rounds)
+        .as_object_mut()
+        .unwrap()
+        .remove("stresses");
+    let wanted = "solutions.rounds[0].merges[0]: `stressed` in a round without `stresses`";
+    assert!(reason(&value).starts_with(wanted), "{}", reason(&value));
+    let wanted = "M[0]: `stressed` is no rule for 3 nodes";
+    refused("part", &[("M/0", other)], wanted);
 }
 
 #[test]

@@ -67,7 +67,7 @@ class Solutions:
     full_may_tell_more: Annotated[bool,
         "Whether the number is open, and ``solutions='full'`` looks at more."] = False
     because: Annotated[Optional[str],
-        "Why there is one solution, where rounds of removing cameras show it."] = None
+        "Why there is one solution, where rounds of removing cameras, or of stresses, show it."] = None
 
     @property
     def exactly(self) -> Optional[int]:

@@ -9,7 +9,10 @@ objects! {
         merges: Vec<Merge>, upper: Option<Upper>, lower: Option<Lower>,
         product: Optional<Vec<Factor>>, rounds: Optional<Vec<Round>>,
     }
-    Round { sets: Vec<Vec<u32>>, evidence: Vec<Evidence>, merges: Vec<Merge> }
+    Round {
+        sets: Vec<Vec<u32>>, evidence: Vec<Evidence>, merges: Vec<Merge>,
+        stresses: Optional<Vec<Vec<Big<u64>>>>,
+    }
     Factor { with: Vec<usize>, solutions: Box<Solutions>, rigid: Option<Rigid> }
     Rigid { chart: Chart, centres: Centres }
     Merge {

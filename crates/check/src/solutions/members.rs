@@ -1,6 +1,7 @@
-//! Members, and their merges: conditions (S1) to (S3) and (U4) of section 12.
+//! Members, and their merges: conditions (S1) to (S3), (U4) and (U6) of section 12.
 
 use super::check_part;
+use super::rounds::Rigid;
 use crate::document::solutions::Merge;
 use crate::elimination::SPARSE;
 use crate::limits::Meter;
@@ -29,11 +30,11 @@ impl Members {
             .collect()
     }
 
-    /// Makes one member of several; `part` has the nodes of the part of the round, in a round.
+    /// Makes one member of several; in a round with what is rigid there.
     pub(super) fn merge(
         &mut self,
         merge: &Merge,
-        part: Option<&Nodes>,
+        rigid: Option<&Rigid>,
         meter: &Meter,
     ) -> Checked<()> {
         ensure!(
@@ -44,9 +45,9 @@ impl Members {
         let taken = taken.collect::<Checked<Vec<Nodes>>>()?;
         let size: usize = taken.iter().map(Nodes::len).sum();
         meter.charge(SPARSE * (size + merge.with.len() * merge.at.len()) as u64)?;
-        match (merge.rule.as_str(), part) {
+        match (merge.rule.as_str(), rigid) {
             ("part", None) => check_parted(merge, &taken, meter)?,
-            ("removed", Some(part)) => check_removed(merge, &taken, part)?,
+            ("removed" | "stressed", Some(rigid)) => check_node(merge, &taken, rigid)?,
             _ => check_rule(merge, &taken)?,
         }
         self.0.push(Some(taken.into_iter().flatten().collect()));
@@ -154,18 +155,26 @@ fn check_link([a, b, c, d, e, f, g]: [u32; 7], taken: &[Nodes]) -> Checked<()> {
 }
 
 /// (U4): a node outside of the part of the round, and nodes of it (theory, Theorems 19.3 and 19.6).
-fn check_removed(merge: &Merge, taken: &[Nodes], part: &Nodes) -> Checked<()> {
+/// (U6): a node inside, and one of each set that contains it (Theorem 19.11).
+fn check_node(merge: &Merge, taken: &[Nodes], rigid: &Rigid) -> Checked<()> {
     let (v, ends) = merge.at.split_first().unwrap_or((&0, &[]));
     let different: HashSet<&u32> = merge.at.iter().collect();
     ensure!(
         ends.len() >= 2 && different.len() == merge.at.len(),
         "`at` has less than three nodes, or one twice"
     );
-    ensure!(
-        !part.contains(v),
-        "node {v} is in the part, which is to be rigid without it"
-    );
-    ensure!(has(part, ends), "a neighbour of {v} is not in the part");
+    if merge.rule == "removed" {
+        ensure!(
+            !rigid.part.contains(v),
+            "node {v} is in the part, which is to be rigid without it"
+        );
+        let is_inside = has(&rigid.part, ends);
+        ensure!(is_inside, "a neighbour of {v} is not in the part");
+    } else {
+        let none = || Failure::rejected("`stressed` in a round without `stresses`");
+        let stresses = rigid.stresses.as_ref().ok_or_else(none)?;
+        stresses.check_node(*v, ends)?;
+    }
     let pairs: Vec<[u32; 2]> = ends.iter().map(|&end| [*v, end]).collect();
     check_pairs(merge, &pairs, taken)
 }

@@ -6,7 +6,7 @@
 //! make unknowns known (`linear`; `support`, of `minors` and their `zeros`) and from the points that
 //! solutions are near to (`points`), a lower one from simple points (`simple`) of a tight core.
 //! What hangs together in a few nodes only is bounded apart, and numbers multiply (`product`).
-//! Before all merges come `rounds`, which take nodes away.
+//! Before all merges come `rounds`, which take nodes away, or rest on `stresses`.
 //! `dense` has the linear algebra; the text is `document::solutions`.
 
 mod chart;
@@ -18,6 +18,7 @@ mod points;
 mod product;
 mod rounds;
 mod simple;
+mod stresses;
 mod support;
 mod system;
 mod zeros;

@@ -1,7 +1,9 @@
-//! Rounds: a part that is rigid without a node determines its neighbours there together with it
-//! (conditions (U1) to (U4) of section 12; theory, Theorems 19.3 and 19.6).
+//! Rounds: a part that is rigid without a node determines its neighbours there together with it, and one
+//! with stresses what is at its nodes (conditions (U1) to (U6) of section 12; theory, Theorems 19.3, 19.6
+//! and 19.11).
 
 use super::members::{Members, Nodes};
+use super::stresses::Stresses;
 use crate::core::{Core, Joined};
 use crate::document::solutions::Round;
 use crate::elimination::SPARSE;
@@ -9,6 +11,13 @@ use crate::lower::check_rigid;
 use crate::rejection::{Checked, Within, ensure};
 use crate::setting::Setting;
 use std::collections::{HashMap, HashSet};
+
+/// What rules of a round refer to.
+pub(super) struct Rigid<'a> {
+    /// The nodes of its sets.
+    pub(super) part: Nodes,
+    pub(super) stresses: Option<Stresses<'a>>,
+}
 
 /// Verifies a round, and merges what it determines.
 pub(super) fn check(round: &Round, members: &mut Members, setting: &Setting) -> Checked<()> {
@@ -22,9 +31,14 @@ pub(super) fn check(round: &Round, members: &mut Members, setting: &Setting) -> 
     let joined: Vec<Joined> = joined.collect();
     let core = Core::new(&joined, |k| format!("sets[{k}]"), setting)?;
     check_rigid(&round.evidence, setting, &core)?;
-    let part: Nodes = round.sets.iter().flatten().copied().collect();
+    let stresses = round.stresses.0.as_ref();
+    let stresses = stresses.map(|all| Stresses::new(all, round, (&joined, &core), setting));
+    let rigid = Rigid {
+        part: round.sets.iter().flatten().copied().collect(),
+        stresses: stresses.transpose()?,
+    };
     for (k, merge) in round.merges.iter().enumerate() {
-        let merged = members.merge(merge, Some(&part), setting.meter);
+        let merged = members.merge(merge, Some(&rigid), setting.meter);
         merged.within(|| format!("merges[{k}]"))?;
     }
     Ok(())

@@ -48,6 +48,7 @@ objects! {
         sets: &'a [Vec<u32>],
         evidence: [&'a Evidence; 1],
         merges: Vec<MergeView<'a>>,
+        ; optional stresses: Vec<Vec<Big<&'a u64>>>
     }
 
     FactorView<'a> {
@@ -90,6 +91,7 @@ impl<'a> RoundView<'a> {
             sets: &round.sets,
             evidence: [&round.evidence],
             merges: round.merges.iter().map(merge).collect(),
+            stresses: (!round.stresses.is_empty()).then(|| all_bigs(&round.stresses)),
         }
     }
 }

@@ -10,13 +10,14 @@
 
 use crate::contract::Contraction;
 use crate::contract::piece::{Assembly, Core, Members};
-use crate::decide::drawn::Centres;
+use crate::decide::drawn::{Centres, Ranks};
 use crate::decide::error::VerdictError;
 use crate::decide::evidence::Evidence;
 use crate::decide::options::Options;
 use crate::decide::question::{Arithmetic, CountSolutions};
 use crate::decide::walk::Piece;
 use crate::graph::{Adjacency, Graph};
+use crate::watch::Stopped;
 use rayon::prelude::*;
 use std::collections::VecDeque;
 
@@ -57,7 +58,7 @@ pub(super) fn extend(
         }
         let search = Search::new(&assembly, sha256, options);
         let regions = regions(graph, &contraction, &large, size);
-        let found = search.all_rigid_parts(&regions)?;
+        let found = search.all_rigid_parts(&regions, &|ranks| Ok(Some(ranks.evidence())))?;
         let (unions, bounds): (Vec<_>, Vec<_>) = found.into_iter().unzip();
         if unions.is_empty() {
             size *= 2;
@@ -164,6 +165,9 @@ fn partition(graph: &Graph, in_core: &[bool], size: usize) -> (Vec<u32>, usize) 
     (region_of, regions as usize)
 }
 
+/// What is wanted of a part that is rigid.
+pub(super) type Read<'r, T> = dyn Fn(&Ranks<'_>) -> Result<Option<T>, Stopped> + Sync + 'r;
+
 /// Looks for rigid parts among members.
 pub(super) struct Search<'a> {
     assembly: &'a Assembly,
@@ -180,19 +184,27 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Rigid parts of each of some lists of members, side by side.
-    pub(super) fn all_rigid_parts(
+    /// Rigid parts of each of some lists of members, side by side, with what is read off their ranks,
+    /// if anything is.
+    pub(super) fn all_rigid_parts<T: Send>(
         &self,
         among: &[Members],
-    ) -> Result<Vec<(Members, Evidence)>, VerdictError> {
-        let found = among.par_iter().map(|members| self.rigid_parts(members));
+        read: &Read<'_, T>,
+    ) -> Result<Vec<(Members, T)>, VerdictError> {
+        let found = among
+            .par_iter()
+            .map(|members| self.rigid_parts(members, read));
         let found: Vec<_> = found.collect::<Result<_, VerdictError>>()?;
         Ok(found.into_iter().flatten().collect())
     }
 
-    /// Parts of two members or more that have full rank by themselves, each with the lower bound
-    /// that shows it. No member is in two of them.
-    fn rigid_parts(&self, members: &Members) -> Result<Vec<(Members, Evidence)>, VerdictError> {
+    /// Parts of two members or more that have full rank by themselves, each with what is read off its
+    /// ranks. No member is in two of them.
+    fn rigid_parts<T>(
+        &self,
+        members: &Members,
+        read: &Read<'_, T>,
+    ) -> Result<Vec<(Members, T)>, VerdictError> {
         let mut found = Vec::new();
         let mut left = self.assembly.split(members).pieces;
         while let Some(members) = left.pop() {
@@ -205,8 +217,7 @@ impl<'a> Search<'a> {
             };
             let ranks = piece.ranks(&at)?;
             if ranks.rank == piece.required() {
-                let evidence = ranks.evidence();
-                found.push((members, evidence));
+                found.extend(read(&ranks)?.map(|value| (members, value)));
             } else if let Some((classes, _)) = ranks.separate(&members) {
                 for class in classes {
                     left.extend(self.assembly.split(&class).pieces);

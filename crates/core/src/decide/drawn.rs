@@ -8,6 +8,7 @@ use crate::contract::piece::{Core, Members};
 use crate::decide::error::VerdictError;
 use crate::decide::evidence::{Evidence, ModularDraw};
 use crate::decide::motion_class;
+use crate::decide::stressed::{self, Stressed};
 use crate::geometry::draw;
 use crate::geometry::draw::DrawKey;
 use crate::geometry::model::Model;
@@ -168,6 +169,31 @@ impl<'a> Ranks<'a> {
             draw: self.at.draw,
             rank,
         }
+    }
+
+    /// What stresses at these centres show, if they show anything (section 19).
+    pub(super) fn stressed(&self, watch: &Watch) -> Result<Option<Stressed>, Stopped> {
+        let Some(lambda) = &self.lambda else {
+            return Ok(None);
+        };
+        let (field, key) = (&self.at.field, &self.at.key);
+        let task = watch.task(Step::Flows, self.core.graph.nodes());
+        let stars = stressed::stars(self.core);
+        let vectors = self.flows.stresses(
+            lambda,
+            stressed::enough(&stars),
+            key.flow_weights(field),
+            key.residues(field),
+            &task,
+        )?;
+        let on = |stress: &[u64], e: usize| self.flows.stress_on(stress, e);
+        let nodes = stressed::joined(field, self.core, stars, &vectors, on);
+        let residues = |vector: &Vec<u64>| vector.iter().map(|&x| field.to_u64(x)).collect();
+        Ok((!nodes.is_empty()).then(|| Stressed {
+            evidence: self.evidence(),
+            vectors: vectors.iter().map(residues).collect(),
+            nodes,
+        }))
     }
 
     /// In the calibrated model: the scale of every core edge in the motion of

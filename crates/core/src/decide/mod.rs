@@ -16,6 +16,7 @@
 //!                a gap is left: draws that nobody chooses, an error bound   7.2
 //!   conclude   ranks add up; the verdict, and the components                4.6
 //!   rounds     nodes removed, the rest rigid -> members merge                19
+//!              stresses at a node -> its members merge
 //!   solutions  how many a finite solvable graph has: one makes it solvable   10
 //! ```
 //!
@@ -23,7 +24,7 @@
 //! pieces are in `one_piece` and `walk`, bodies that ranks give before in `bodies_by_rank`, their ranks at some
 //! centres in `drawn`, classes in `motion_class`, bounds in `counting`, the
 //! paper's own matrix (`--method matrix`, `--rational`) in `whole_matrix`, the number of solutions in
-//! `rounds` and `solution_count`. What unknown base lines that frames share add to it is in `base_lines`; what a decided
+//! `rounds`, `stressed` and `solution_count`. What unknown base lines that frames share add to it is in `base_lines`; what a decided
 //! graph can notice (section 15) in `redundancy`. What is asked is in `question`, with what it is decided in
 //! `options`, what is found in [`evidence`], what comes out in `verdict`.
 
@@ -44,6 +45,7 @@ mod question;
 mod redundancy;
 mod rounds;
 mod solution_count;
+mod stressed;
 mod stresses;
 mod vectors;
 mod verdict;

@@ -3,14 +3,16 @@
 //! In: uniquely determined members, closed under the rules of contraction. Out: rounds that merge them.
 //! A round removes some nodes, no two of one small member. Where what is left is rigid, each of them is
 //! determined together with its neighbours there (Theorem 19.6), and its members merge. Then the rules
-//! go on. One rank decides about all nodes of a round; if it is too small, fewer nodes are removed.
+//! go on. One rank decides about all nodes of a round; if it is too small, stresses of the whole core
+//! merge the members at a node (Theorem 19.11), and if there are too few, fewer nodes are removed.
 
 use crate::contract::piece::{Assembly, Members};
 use crate::contract::{Body, Contraction, Merge, Part, Seed};
-use crate::decide::bodies_by_rank::{self, Search};
+use crate::decide::bodies_by_rank::{self, Read, Search};
 use crate::decide::error::VerdictError;
 use crate::decide::evidence::Evidence;
 use crate::decide::options::Options;
+use crate::decide::stressed::Stressed;
 use crate::geometry::model::Model;
 use crate::graph::{Graph, Lists, UnionFind};
 use crate::solutions::Rule;
@@ -27,6 +29,8 @@ pub struct Rounds {
     pub next: usize,
     /// For each time that nodes were removed how many they were, of how many.
     pub removed: Vec<[usize; 2]>,
+    /// How many times stresses merged members.
+    pub stressed: usize,
 }
 
 impl Rounds {
@@ -43,6 +47,8 @@ pub struct Round {
     pub sets: Vec<Vec<u32>>,
     /// Why it is rigid.
     pub evidence: Evidence,
+    /// Stresses at the centres of the evidence, by residues, if members merge by them.
+    pub stresses: Vec<Vec<u64>>,
     /// Merges of members.
     pub merges: Vec<Joined>,
 }
@@ -87,7 +93,7 @@ pub(super) fn merge(
     is_patient: bool,
 ) -> Result<Rounds, VerdictError> {
     let mut state = State::new(nodes, members);
-    let (mut rounds, mut removed) = (Vec::new(), Vec::new());
+    let (mut rounds, mut removed, mut stressed) = (Vec::new(), Vec::new(), 0);
     let first = (state.shared.len() as u64).pow(3);
     let mut left = MOST_COST.max(if is_patient {
         first
@@ -95,34 +101,39 @@ pub(super) fn merge(
         MOST_LARGE * first
     });
     let mut choice = Choice::default();
+    // Where few nodes can go, or one rank is all that is affordable, stresses show most.
+    let is_first =
+        |state: &State| is_patient && (state.shared.len() >= LARGE || !state.loses_many());
+    let (mut by_stresses, mut is_new) = (is_first(&state), true);
     while state.members.len() > 1 {
-        let cost = (state.shared.len() as u64).pow(3).max(1);
+        let shared = state.shared.len();
+        let cost = (shared as u64).pow(3).max(1);
         let Some(chosen) = state.choose(&choice).filter(|_| cost <= left) else {
             break;
         };
         left -= cost;
-        let before = rounds.len();
-        for (sets, evidence) in state.rigid_parts(&chosen, sha256, options)? {
-            let merges = state.join_neighbours(&chosen, &sets);
-            if !merges.is_empty() {
-                rounds.push(Round {
-                    sets,
-                    evidence,
-                    merges,
-                });
-            }
-        }
-        if rounds.len() == before {
-            if !is_patient {
-                break;
-            }
-            choice.shrink(chosen.len());
-            continue;
-        }
-        removed.push([chosen.len(), state.shared.len()]);
-        choice.next();
-        if let Some(last) = rounds.last_mut() {
+        let mut found = if by_stresses {
+            state.by_stresses(sha256, options)?
+        } else {
+            state.by_removal(&chosen, sha256, options)?
+        };
+        if let Some(last) = found.last_mut() {
             last.merges.extend(state.close());
+            rounds.append(&mut found);
+            if by_stresses {
+                stressed += 1;
+            } else {
+                removed.push([chosen.len(), shared]);
+            }
+            choice.next();
+            (by_stresses, is_new) = (is_first(&state), true);
+        } else if by_stresses {
+            (by_stresses, is_new) = (false, false);
+        } else if is_patient {
+            choice.shrink(chosen.len());
+            by_stresses = is_new;
+        } else {
+            break;
         }
     }
     Ok(Rounds {
@@ -130,15 +141,14 @@ pub(super) fn merge(
         left: state.numbered(),
         next: state.next,
         removed,
+        stressed,
     })
 }
 
 /// Whether there are so many equations that a large core loses many nodes at once.
 pub(super) fn may_be_many(nodes: usize, members: &[Vec<u32>]) -> bool {
     let state = State::new(nodes, members.to_vec());
-    let chosen = state.choose(&Choice::default());
-    let chosen = chosen.map_or(0, |chosen| chosen.len());
-    state.shared.len() >= LARGE && 20 * chosen >= state.shared.len()
+    state.shared.len() >= LARGE && state.loses_many()
 }
 
 /// How many nodes are removed, and which.
@@ -184,9 +194,6 @@ struct State {
     next: usize,
     joined: Vec<Joined>,
 }
-
-/// The sets of nodes that members have in a part, and what shows that it is rigid.
-type RigidPart = (Vec<Vec<u32>>, Evidence);
 
 impl State {
     fn new(nodes: usize, members: Vec<Vec<u32>>) -> Self {
@@ -274,6 +281,12 @@ impl State {
         all.saturating_sub(rank(self.shared.len()))
     }
 
+    /// Whether one in twenty nodes can be removed at once.
+    fn loses_many(&self) -> bool {
+        let chosen = self.choose(&Choice::default());
+        chosen.is_some_and(|chosen| 20 * chosen.len() >= self.shared.len())
+    }
+
     /// How much of that goes with a node.
     fn cost(&self, v: u32) -> usize {
         let members = self.at.of(v as usize).iter();
@@ -322,13 +335,65 @@ impl State {
         (!chosen.is_empty()).then_some(chosen)
     }
 
-    /// Parts that are rigid without some nodes, as sets of nodes of members, with what shows it.
-    fn rigid_parts(
+    /// What merges if some nodes are removed.
+    fn by_removal(
+        &mut self,
+        removed: &[u32],
+        sha256: &[u8; 32],
+        options: &Options,
+    ) -> Result<Vec<Round>, VerdictError> {
+        let evidence: &Read<'_, _> = &|ranks| Ok(Some(ranks.evidence()));
+        let parts = self.rigid_parts(removed, sha256, options, evidence)?;
+        let rounds = parts.into_iter().map(|(sets, evidence)| Round {
+            merges: self.join_neighbours(removed, &sets),
+            sets,
+            evidence,
+            stresses: Vec::new(),
+        });
+        Ok(rounds.filter(|round| !round.merges.is_empty()).collect())
+    }
+
+    /// What merges by stresses.
+    fn by_stresses(
+        &mut self,
+        sha256: &[u8; 32],
+        options: &Options,
+    ) -> Result<Vec<Round>, VerdictError> {
+        let stressed: &Read<'_, Stressed> = &|ranks| ranks.stressed(&options.watch);
+        let parts = self.rigid_parts(&[], sha256, options, stressed)?;
+        let rounds = parts.into_iter().map(|(sets, stressed)| {
+            for at in stressed.nodes {
+                let places = self
+                    .at
+                    .of(at[0] as usize)
+                    .iter()
+                    .map(|&place| place as usize);
+                let holds = |&place: &usize| {
+                    let nodes = &self.members[place];
+                    at[1..].iter().any(|a| nodes.binary_search(a).is_ok())
+                };
+                let places: Vec<usize> = places.filter(holds).collect();
+                self.join(&places, Rule::Stressed, at);
+            }
+            Round {
+                sets,
+                evidence: stressed.evidence,
+                stresses: stressed.vectors,
+                merges: std::mem::take(&mut self.joined),
+            }
+        });
+        Ok(rounds.filter(|round| !round.merges.is_empty()).collect())
+    }
+
+    /// Parts that are rigid without some nodes, as sets of nodes of members, with what is read off
+    /// their ranks.
+    fn rigid_parts<T: Send>(
         &self,
         removed: &[u32],
         sha256: &[u8; 32],
         options: &Options,
-    ) -> Result<Vec<RigidPart>, VerdictError> {
+        read: &Read<'_, T>,
+    ) -> Result<Vec<(Vec<Vec<u32>>, T)>, VerdictError> {
         let mut is_removed = vec![false; self.nodes];
         for &v in removed {
             is_removed[v as usize] = true;
@@ -366,10 +431,10 @@ impl State {
                 .map(|piece| (piece.clone(), assembly.core(piece)));
             let cores: Vec<_> = cores.collect();
             let regions = bodies_by_rank::regions(&linked, &contraction, &cores, REGION);
-            found = search.all_rigid_parts(&regions)?;
+            found = search.all_rigid_parts(&regions, read)?;
         }
         if found.is_empty() {
-            found = search.all_rigid_parts(&pieces)?;
+            found = search.all_rigid_parts(&pieces, read)?;
         }
         let sets = |members: &Members| {
             let bodies = members.bodies.iter();
@@ -379,7 +444,7 @@ impl State {
         };
         Ok(found
             .into_iter()
-            .map(|(members, evidence)| (sets(&members), evidence))
+            .map(|(members, value)| (sets(&members), value))
             .collect())
     }
 

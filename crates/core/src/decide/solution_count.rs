@@ -126,16 +126,20 @@ impl SolutionCount {
             of += all;
         }
         let percent = (100 * removed).div_ceil(of.max(1));
-        let times = match rounds.removed.len() {
-            1 => "1 round".to_string(),
-            times => format!("{times} rounds"),
+        let times = |times: usize, of: String| match times {
+            0 => None,
+            1 => Some(format!("1 round of {of}")),
+            _ => Some(format!("{times} rounds of {of}")),
         };
-        let rest = if self.evidence.is_some() {
-            "; the scales of what is left have one solution"
-        } else {
-            ""
-        };
-        Some(format!("unique: {times} of removing {percent} %{rest}"))
+        let why = [
+            times(rounds.removed.len(), format!("removing {percent} %")),
+            times(rounds.stressed, "stresses".into()),
+            self.evidence
+                .as_ref()
+                .map(|_| "the scales of what is left have one solution".into()),
+        ];
+        let why: Vec<String> = why.into_iter().flatten().collect();
+        Some(format!("unique: {}", why.join("; ")))
     }
 
     /// How strong both bounds are: they are proofs, whatever was drawn.

@@ -392,6 +392,58 @@ impl<'a> PlaneFlows<'a> {
         })
     }
 
+    /// At most so many random stresses, combined from the flows of `lambda`, by lists x: column k of
+    /// W_e on the edge e is x[8 e + 2 k] times the first direction and x[8 e + 2 k + 1] times the
+    /// second one (section 19). `weights` gives those of the flows of `lambda` once more.
+    ///
+    /// # Errors
+    /// If the task was stopped.
+    pub(crate) fn stresses(
+        &self,
+        lambda: &Lambda,
+        most: usize,
+        mut weights: impl FnMut() -> u64,
+        mut random: impl FnMut() -> u64,
+        task: &Task,
+    ) -> Result<Vec<Vec<u64>>, Stopped> {
+        let (pivots, free) = (lambda.echelon.pivots().rows, lambda.echelon.free_rows());
+        let count = most.min(free.len());
+        let at_free = Matrix::from_fn(count, free.len(), |_, _| random());
+        let work = task.begin(lambda.echelon.combination_products(count));
+        let at_pivots = lambda.echelon.combined_left_weights(&at_free, &work)?;
+        let (flows, width) = (lambda.rows.rows() / 4, self.dimension());
+        let weights = Matrix::from_fn(flows, width, |_, _| weights());
+        let mut combined = Matrix::new(4 * count, width, vec![0; 4 * count * width]);
+        for s in 0..count {
+            let at_pivots = pivots.iter().zip(at_pivots.row(s));
+            for (&row, factor) in at_pivots.chain(free.iter().zip(at_free.row(s))) {
+                let sums = combined.row_mut(4 * s + row % 4).iter_mut();
+                for (sum, weight) in sums.zip(weights.row(row / 4)) {
+                    *sum = self.field.add(sum, &self.field.mul(factor, weight));
+                }
+            }
+        }
+        let columns = self.combined(&combined, task)?;
+        let of_stress = |s: usize| {
+            let edges = 0..self.graph.edges().len();
+            let entries = edges.flat_map(|e| (0..4).map(move |k| (4 * s + k, 2 * e)));
+            let entries = entries.flat_map(|(row, at)| [(row, at), (row, at + 1)]);
+            entries.map(|at| columns[at]).collect()
+        };
+        Ok((0..count).map(of_stress).collect())
+    }
+
+    /// The matrix W_e of a stress, row by row.
+    pub(crate) fn stress_on(&self, stress: &[u64], e: usize) -> [[u64; 4]; 3] {
+        let [a, b] = self.edge_directions(e);
+        std::array::from_fn(|r| {
+            std::array::from_fn(|k| {
+                let at = 8 * e + 2 * k;
+                self.field.dot(0, &stress[at..at + 2], &[a[r], b[r]])
+            })
+        })
+    }
+
     /// The rows of Lambda that the flows with the given entries at the free rows of N give,
     /// one after another: four rows a flow, restricted to the given edges.
     fn lambda_rows(

@@ -125,6 +125,8 @@ pub enum Rule {
     Link,
     /// A node hangs on a part that is rigid without it (Theorem 19.6).
     Removed,
+    /// Stresses at a node of a rigid part (Theorem 19.11).
+    Stressed,
     /// The part of the core between them is finite solvable and proved to have one solution
     /// (Proposition 10.11).
     Grown,
@@ -140,6 +142,7 @@ impl Rule {
             Self::Tripod => "tripod",
             Self::Link => "link",
             Self::Removed => "removed",
+            Self::Stressed => "stressed",
             Self::Grown => "part",
         }
     }
