@@ -777,6 +777,27 @@ def bad_cycles(document, rng):
     document.update(maker.document(check_it=False))
 
 
+def change_stresses(document, rng):
+    """Stresses of a round are combined or taken away, its draw is another, or the members at another node merge."""
+    one = rng.choice([one for one in document["solutions"]["rounds"] if "stresses" in one])
+    at, vectors, way = one["evidence"][0], one["stresses"], rng.randrange(5)
+    if way == 0:
+        at["draw"] += 1
+    elif way == 1:
+        at["prime"] = str(rng.choice([prime for prime in (10007, 10009, 65521, PRIME) if str(prime) != at["prime"]]))
+    elif way == 2:
+        x, y, factor = rng.choice(vectors), rng.choice(vectors), rng.randrange(3)
+        vectors[rng.randrange(len(vectors))] = [str((int(a) + factor * int(b)) % int(at["prime"])) for a, b in zip(x, y)]
+    elif way == 3:
+        del vectors[rng.randrange(len(vectors))]
+    else:
+        v = rng.choice(rng.choice(one["sets"]))
+        near = [[node for node in nodes if node != v] for nodes in one["sets"] if v in nodes]
+        others = [k for k, edge in enumerate(document["pieces"][0]["edges"]) if v in edge]
+        merge = {"rule": "stressed", "with": others, "at": [v, *map(rng.choice, near)], "solutions": None}
+        one["merges"][rng.randrange(len(one["merges"]))] = merge
+
+
 MUTATIONS = (
     *(change_number, change_number, swap_entries, delete_entry, double_entry, move_entry, move_entry, replace_value),
     *(change_type, delete_member, add_member, change_pivots, change_pivots, change_kind, copy_evidence, copy_evidence),
@@ -785,6 +806,7 @@ MUTATIONS = (
     *(change_frames, change_frames, change_frames),
     *(change_intrinsics, change_intrinsics, change_intrinsics, change_intrinsics),
     *(into_factors, change_factor, change_factor, change_shifts, change_shifts),
+    *(change_stresses, change_stresses),
 )
 
 

@@ -1,7 +1,7 @@
 //! Members, and their merges: conditions (S1) to (S3), (U4) and (U6) of section 12.
 
 use super::check_part;
-use super::rounds::Rigid;
+use super::stresses::Rigid;
 use crate::document::solutions::Merge;
 use crate::elimination::SPARSE;
 use crate::limits::Meter;

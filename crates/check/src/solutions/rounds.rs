@@ -3,7 +3,7 @@
 //! and 19.11).
 
 use super::members::{Members, Nodes};
-use super::stresses::Stresses;
+use super::stresses::{Rigid, Stresses};
 use crate::core::{Core, Joined};
 use crate::document::solutions::Round;
 use crate::elimination::SPARSE;
@@ -11,13 +11,6 @@ use crate::lower::check_rigid;
 use crate::rejection::{Checked, Within, ensure};
 use crate::setting::Setting;
 use std::collections::{HashMap, HashSet};
-
-/// What rules of a round refer to.
-pub(super) struct Rigid<'a> {
-    /// The nodes of its sets.
-    pub(super) part: Nodes,
-    pub(super) stresses: Option<Stresses<'a>>,
-}
 
 /// Verifies a round, and merges what it determines.
 pub(super) fn check(round: &Round, members: &mut Members, setting: &Setting) -> Checked<()> {

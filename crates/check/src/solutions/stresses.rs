@@ -2,7 +2,6 @@
 //! Theorem 19.11 and Lemma 19.12).
 
 use super::dense::ENTRY;
-use super::members::Nodes;
 use crate::algebra::{Field, Ring};
 use crate::cameras::{self, Stream};
 use crate::core::{Core, Joined, core_nodes};
@@ -14,7 +13,14 @@ use crate::limits::Meter;
 use crate::matrices::{Bearing, bearings};
 use crate::rejection::{Checked, Failure, Within, ensure};
 use crate::setting::Setting;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// What rules of a round refer to.
+pub(super) struct Rigid<'a> {
+    /// The nodes of its sets.
+    pub(super) part: BTreeSet<u32>,
+    pub(super) stresses: Option<Stresses<'a>>,
+}
 
 /// A 3 x 4 matrix, row by row.
 type Block = [u64; 12];
@@ -26,7 +32,7 @@ type Star = BTreeMap<usize, Vec<Block>>;
 pub(super) struct Stresses<'a> {
     field: Field,
     meter: &'a Meter,
-    sets: Vec<Nodes>,
+    sets: Vec<BTreeSet<u32>>,
     stars: BTreeMap<u32, Star>,
 }
 
@@ -76,7 +82,7 @@ impl<'a> Stresses<'a> {
         let star = self.stars.get(&v);
         ensure!(star.is_some(), "no stress is at node {v} of the core");
         let star = star.into_iter().flatten();
-        let stars: Vec<(&Nodes, &Vec<Block>)> =
+        let stars: Vec<(&BTreeSet<u32>, &Vec<Block>)> =
             star.map(|(&set, sums)| (&self.sets[set], sums)).collect();
         for (nodes, _) in &stars {
             ensure!(
