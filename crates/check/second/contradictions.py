@@ -118,22 +118,26 @@ class ContradictionsCheck:
     # Section 3 -------------------------------------------------------------------------------------------------------
 
     def packing(self, value, where):
-        theta, phi, assumed, denominator, cycles, at_least = members(value, "theta phi assumed denominator cycles at_least", where)
+        names = "theta phi assumed assumed_within denominator cycles at_least"
+        theta, phi, assumed, within, denominator, cycles, at_least = members(value, names, where)
         an_int(theta, f"{where}: theta", least=1, below=90)
         if phi is not None:
             an_int(phi, f"{where}: phi", least=theta, below=90)
         for number in increasing(a_list(assumed, where), f"{where}: assumed"):
             an_int(number, f"{where}: assumed", least=0, below=len(self.pairs))
+        an_int(within, f"{where}: assumed_within", least=1, below=1000 * theta + 1)
         an_int(denominator, f"{where}: denominator", least=1)
         weights, total, witnessed, right = {}, 0, False, set(assumed)
         for k, cycle in enumerate(a_list(cycles, f"{where}: cycles")):
             at = f"{where}.cycles[{k}]"
             walk, weight, witness = members(cycle, "walk weight witness", at)
             an_int(weight, f"{at}: weight", least=0)
-            steps = self.walk(walk, theta, at)
+            steps = self.walk(walk, at)
+            angle = -(-sum(within if k in right else 1000 * theta for k, _ in steps) // 1000)
+            need(angle < 180, f"{at}: (C4) its angles sum to 180 or more")
             need(not {k for k, _ in steps} <= right, f"{at}: (C5) all of its pairs are assumed")
             if witness is None:
-                self.rotations(steps, theta, at)
+                self.rotations(steps, angle, at)
             else:
                 need(phi is not None, f"{at}: (C3) a witness without phi")
                 self.directions(steps, theta, phi, ints(witness, 3, f"{at}: witness"), at)
@@ -145,9 +149,9 @@ class ContradictionsCheck:
         for k in weights.keys() - right:
             need(weights[k] <= denominator, f"{where}: (C8) pair {k} carries more than one")
         need(same(at_least, -(-total // denominator)), f"{where}: (C8) at_least is another number")
-        return theta, phi, len(assumed), at_least
+        return theta, phi, len(assumed), within, at_least
 
-    def walk(self, value, theta, where):
+    def walk(self, value, where):
         """(C4)."""
         steps = []
         for step in a_list(value, f"{where}: walk"):
@@ -155,7 +159,7 @@ class ContradictionsCheck:
             k = an_int(step[0], f"{where}: a step", least=0, below=len(self.pairs))
             need(an_int(step[1], where) in (1, -1), f"{where}: no sense")
             steps.append((k, step[1]))
-        need(len(steps) >= 2 and len(steps) * theta < 180, f"{where}: (C4) too short or too long")
+        need(len(steps) >= 2, f"{where}: (C4) too short")
         need(len({k for k, _ in steps}) == len(steps), f"{where}: (C4) a pair is taken twice")
         ends = [self.pairs[k][0][::sense] for k, sense in steps]
         need(all(ends[m - 1][1] == ends[m][0] for m in range(len(ends))), f"{where}: (C4) not closed")
@@ -168,10 +172,10 @@ class ContradictionsCheck:
             whole = times(q if sense == 1 else conj(q), whole)
         return whole
 
-    def rotations(self, steps, theta, where):
+    def rotations(self, steps, angle, where):
         """(C6)."""
         whole, count = self.composed(steps), len(steps)
-        need(whole[0] ** 2 << 63 < (2**62 + COS[count * theta] - count * 2**47) * dot(whole, whole), f"{where}: (C6) no contradiction")
+        need(whole[0] ** 2 << 63 < (2**62 + COS[angle] - count * 2**47) * dot(whole, whole), f"{where}: (C6) no contradiction")
 
     def directions(self, steps, theta, phi, w, where):
         """(C7)."""
@@ -301,9 +305,9 @@ class ContradictionsCheck:
         """What was verified, for people."""
         of = "of this database" if self.bound else "about the numbers written here"
         count, found = len(self.pairs), []
-        for theta, phi, assumed, least in self.at_least:
+        for theta, phi, assumed, within, least in self.at_least:
             directions = "" if phi is None else f", or their directions by more than {phi}"
-            given = f", if {assumed} others are right" if assumed else ""
+            given = f", if {assumed} others are right within {within / 1000:g} degrees" if assumed else ""
             found.append(f"contradictions: at least {least} of {count} pairs are off by more than {theta} degrees{directions}{given} (proof), {of}")
         found += [f"rotations: all pairs but {most} agree within {theta} degrees (proof), {of}" for theta, most in self.at_most]
         named = f"database with SHA-256 {self.database}" if self.database else "no database is named"

@@ -58,7 +58,7 @@ class Contradictions(unittest.TestCase):
     def test_what_is_right(self):
         said = check.check(self.document).statements()
         self.assertIn("at least 1 of 10 pairs are off by more than 10 degrees (proof), about the numbers written here", said[1])
-        self.assertIn("their directions by more than 20, if 4 others are right (proof)", said[3])
+        self.assertIn("their directions by more than 20, if 4 others are right within 8 degrees (proof)", said[3])
         self.assertIn("of this database", check.check(self.document, database=self.path).statements()[1])
         with self.assertRaisesRegex(Reject, "about motions"):
             check.check(self.document, model="calibrated")
@@ -91,6 +91,10 @@ class Contradictions(unittest.TestCase):
             ("not increasing", lambda d: d["packings"][2].update(assumed=[4, 0, 7, 9])),
             ("out of range", lambda d: d["packings"][2].update(assumed=[0, 10])),
             ("below 1", lambda d: d["packings"][0].update(denominator=0)),
+            ("out of range|below", lambda d: d["packings"][2].update(assumed_within=0)),
+            ("out of range|below", lambda d: d["packings"][2].update(assumed_within=8001)),
+            ("C6", lambda d: d["packings"][3].update(assumed_within=7000)),
+            ("sum to 180", lambda d: d["packings"][0].update(theta=60)),
             ("below 0", lambda d: d["packings"][0]["cycles"][0].update(weight=-1)),
             ("no list of two", walk(0, [[1]] + first[1:])),
             ("no sense", walk(0, [[1, 2]] + first[1:])),

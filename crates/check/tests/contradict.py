@@ -134,12 +134,12 @@ class Source:
         w = unit([sum(v[k] for v, _ in every) for k in range(3)])
         return rounded(w, 20) if all(dot(w, v) > math.cos(a) + 1e-3 for v, a in every) else None
 
-    def packing(self, theta, phi=None, assumed=(), denominator=1, longest=4):
+    def packing(self, theta, phi=None, assumed=(), denominator=1, longest=4, within=None):
         """Greedy: the cycles that turn most first, each as often as there is room."""
         found = []
         for walk in self.cycles(longest):
             if len(walk) * theta < 179 and not {k for k, _ in walk} <= set(assumed):
-                excess = self.angle(walk) / len(walk) - theta
+                excess = (self.angle(walk) - math.ceil(sum(within if within and k in assumed else 1000 * theta for k, _ in walk) / 1000)) / len(walk)
                 if excess > 0.01:
                     found.append((-len(walk) * len(assumed), excess, walk, None))
                 elif phi is not None and (witness := self.witness(walk, theta, phi)):
@@ -154,7 +154,7 @@ class Source:
         cycles = [{"walk": found[at][2], "weight": weight, "witness": found[at][3]} for at, weight in weights.items()]
         witnessed = any(cycle["witness"] for cycle in cycles)
         return {
-            "theta": theta, "phi": phi if witnessed else None, "assumed": sorted(assumed), "denominator": denominator,
+            "theta": theta, "phi": phi if witnessed else None, "assumed": sorted(assumed), "assumed_within": within or 1000 * theta, "denominator": denominator,
             "cycles": cycles, "at_least": -(-sum(weights.values()) // denominator),
         }
 
@@ -262,7 +262,7 @@ def made():
         path = os.path.join(folder, "made.db")
         write_database(path, tables)
         source = Source(path)
-    packings = [source.packing(10, denominator=2), source.packing(10, 20), source.packing(8, 20, source.neighbours(), longest=3)]
+    packings = [source.packing(10, denominator=2), source.packing(10, 20), source.packing(8, 20, source.neighbours(), longest=3), source.packing(30, None, source.neighbours(), within=500)]
     return tables, source.document(packings, [source.upper(10)])
 
 
@@ -311,6 +311,7 @@ class Mutants:
             lambda: packing.update(assumed=sorted({*packing["assumed"], k})),
             lambda: packing.update(assumed=[one for one in packing["assumed"] if one != k]),
             lambda: packing.update(theta=packing["theta"] + draw.choice((1, -1, 5))),
+            lambda: packing.update(assumed_within=packing["assumed_within"] + draw.choice((1000, -1000, -400))),
             lambda: packing.update(phi=packing["phi"] and packing["phi"] + draw.choice((1, -1, 5))),
             lambda: packing.update(denominator=packing["denominator"] + draw.choice((1, -1))),
             lambda: packing.update(at_least=packing["at_least"] + draw.choice((1, -1))),
@@ -377,7 +378,7 @@ def true(document):
                 return False
             total += cycle["weight"]
             if cycle["witness"] is None:
-                if angle(frame) <= len(ends) * theta:
+                if angle(frame) <= math.ceil(sum(packing["assumed_within"] if k in packing["assumed"] else 1000 * theta for k, _ in ends) / 1000):
                     return False
                 continue
             last = len(ends) - 1

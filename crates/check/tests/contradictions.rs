@@ -78,7 +78,7 @@ fn what_is_right_is_verified_and_says_of_which_numbers() {
     assert_eq!(
         lines[3],
         "contradictions: at least 2 of 10 pairs are off by more than 8 degrees, or their directions by more than 20, \
-         if 4 others are right (proof), about the numbers written here"
+         if 4 others are right within 8 degrees (proof), about the numbers written here"
     );
     let bound = check(&CERTIFICATE, Some(&DATABASE)).unwrap();
     assert!(bound.bound && !verified.bound);
@@ -147,7 +147,19 @@ fn each_condition_about_numbers_is_needed() {
             ("two steps", |d| {
                 d["packings"][0]["cycles"][0]["walk"] = json!([[1, 1]])
             }),
-            ("L theta", |d| d["packings"][0]["theta"] = json!(60)),
+            ("sum to 180", |d| d["packings"][0]["theta"] = json!(60)),
+            ("assumed_within", |d| {
+                d["packings"][2]["assumed_within"] = json!(0)
+            }),
+            ("assumed_within", |d| {
+                d["packings"][2]["assumed_within"] = json!(8001)
+            }),
+            // 44 degrees are not more than 30 and two times 7.
+            ("turns by 44 degrees or less", |d| {
+                d["packings"][3]["assumed_within"] = json!(7000)
+            }),
+            ("expected a string", |d| d["program"] = json!(1)),
+            ("does not belong", |d| d["more"] = json!(1)),
             ("no pair -1", |d| {
                 d["packings"][0]["cycles"][0]["walk"][0][0] = json!(-1)
             }),
@@ -163,7 +175,7 @@ fn each_condition_about_numbers_is_needed() {
             ("not closed", |d| {
                 d["packings"][0]["cycles"][0]["walk"][0][1] = json!(-1)
             }),
-            ("10 degrees or less", |d| {
+            ("turns by 30 degrees or less", |d| {
                 d["packings"][1]["cycles"][0]["walk"] = json!([[7, 1], [9, 1], [8, -1]]);
             }),
             ("the witness is zero", |d| {

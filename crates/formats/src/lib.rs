@@ -44,7 +44,7 @@ pub use intrinsics::{Intrinsics, read_intrinsics};
 pub use matching::{Matching, OtherPair};
 pub use measured::read_motions;
 pub use model::Model;
-pub use motions::{Motion, Motions, Unchecked};
+pub use motions::{Motion, Motions, Source, Unchecked};
 pub use read::{Format, NamedGraph, ReadOptions, open_database, read_graphs, read_meant};
 pub use read_as::{Parsed, ReadAs};
 pub use tracks::{Frames, TrackFacts, TrackOptions};

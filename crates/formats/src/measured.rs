@@ -4,8 +4,8 @@
 //! In: a path. Out: [`Motions`]. Of a pair that cannot be checked they say why.
 
 use crate::documents::is_g2o;
-use crate::error::{Fault, Place, Problem, ReadError};
-use crate::motions::{Motion, Motions, Unchecked, integers};
+use crate::error::{Place, Problem, ReadError};
+use crate::motions::{Motion, Motions, Source, Unchecked, integers};
 use crate::quaternion::quaternion;
 use crate::{ReadOptions, open_database, read_graphs, whole};
 use std::collections::HashMap;
@@ -47,12 +47,39 @@ pub fn read_motions(
     let mut motions = Motions::of(&graph.name, graph.labels, nodes.len());
     let bytes = whole::bytes(path)?;
     let text = whole::text_of(&bytes).map_err(in_file)?;
-    let lines = text.lines().zip(1..);
-    let read = match is_g2o(&text) {
-        true => of_g2o(lines, &nodes, &mut motions),
-        false => of_poses(lines, &nodes, &mut motions),
-    };
-    read.map_err(|fault| fault.in_file(&name))?;
+    let is_pose_graph = is_g2o(&text);
+    if is_pose_graph {
+        motions.source = Source::PoseGraph;
+    }
+    for (line, number) in text.lines().zip(1..) {
+        let fault = |problem| Place::Line(number).fault(problem).in_file(&name);
+        let fields = line.split([' ', '\t', ',', ';', '"']).map(str::trim);
+        let fields: Vec<&str> = fields.filter(|field| !field.is_empty()).collect();
+        let (tag, fields) = fields.split_at(usize::from(is_pose_graph).min(fields.len()));
+        let [one, other, rest @ ..] = fields else {
+            continue;
+        };
+        let (Some(&i), Some(&j)) = (nodes.get(*one), nodes.get(*other)) else {
+            continue;
+        };
+        let found = match Rotation::of(tag.first().copied(), rest).filter(|_| i != j) {
+            Some(found) => found.map_err(fault)?,
+            None => continue,
+        };
+        motions.either_way |= matches!(found, Rotation::EitherWay(_));
+        let measured = match found {
+            Rotation::None => Err((Unchecked::NoRotation, None)),
+            Rotation::Of(q) | Rotation::EitherWay(q) => Ok(Motion {
+                images: [i, j],
+                inliers: 0,
+                configuration: None,
+                rotation: integers(q).ok_or_else(|| fault(no_rotation()))?,
+                vector: None,
+                is_wide: false,
+            }),
+        };
+        motions.take([i, j], measured);
+    }
     match motions.pairs.is_empty() && motions.unchecked.is_empty() {
         true => Err(in_file(Problem::new(
             "its pairs have no rotations",
@@ -62,86 +89,38 @@ pub fn read_motions(
     }
 }
 
-type Lines<'t> = std::iter::Zip<std::str::Lines<'t>, std::ops::RangeFrom<u64>>;
-
-/// The edges of a pose graph, X = R X' + t each.
-fn of_g2o(
-    lines: Lines<'_>,
-    nodes: &HashMap<String, u32>,
-    motions: &mut Motions,
-) -> Result<(), Fault> {
-    for (line, number) in lines {
-        let fault = |problem| Place::Line(number).fault(problem);
-        let fields: Vec<&str> = line.split_ascii_whitespace().collect();
-        let (Some(tag), Some(images)) = (fields.first(), ends(&fields, 1, nodes)) else {
-            continue;
-        };
-        let quaternion = match *tag {
-            "EDGE_SE3:QUAT" => {
-                let [.., x, y, z, w] = numbers::<7>(&fields[3..]).map_err(fault)?;
-                [w, -x, -y, -z]
-            }
-            "EDGE_SE2" => {
-                let [_, _, turn] = numbers::<3>(&fields[3..]).map_err(fault)?;
-                [(turn / 2.0).cos(), 0.0, 0.0, -(turn / 2.0).sin()]
-            }
-            tag if tag.starts_with("EDGE_") => {
-                motions.take(images, Err((Unchecked::NoRotation, None)));
-                continue;
-            }
-            _ => continue,
-        };
-        let rotation = integers(quaternion).ok_or_else(|| fault(no_rotation()))?;
-        motions.take(images, Ok(posed(images, rotation)));
-    }
-    Ok(())
+/// What a line says of the rotation between its two nodes.
+enum Rotation {
+    /// From the first to the second.
+    Of([f64; 4]),
+    /// From one to the other.
+    EitherWay([f64; 4]),
+    None,
 }
 
-/// Lines of two names and a quaternion from the first to the second, or a matrix either way.
-fn of_poses(
-    lines: Lines<'_>,
-    nodes: &HashMap<String, u32>,
-    motions: &mut Motions,
-) -> Result<(), Fault> {
-    for (line, number) in lines {
-        let fault = |problem| Place::Line(number).fault(problem);
-        let split = line.split([' ', '\t', ',', ';', '"']).map(str::trim);
-        let fields: Vec<&str> = split.filter(|field| !field.is_empty()).collect();
-        let Some(images) = ends(&fields, 0, nodes) else {
-            continue;
-        };
-        let q = match fields.len() {
-            9 => numbers::<4>(&fields[2..]).map_err(fault)?,
-            14 => {
-                motions.either_way = true;
-                let [a, b, c, d, e, f, g, h, i] = numbers(&fields[2..]).map_err(fault)?;
-                quaternion(&[[a, b, c], [d, e, f], [g, h, i]])
+impl Rotation {
+    /// Behind the names of a pair: of an edge of a pose graph with this tag, X = R X' + t, or of a list. None is in
+    /// other lines.
+    fn of(tag: Option<&str>, fields: &[&str]) -> Option<Result<Self, Problem>> {
+        Some(match (tag, fields.len()) {
+            (Some("EDGE_SE3:QUAT"), _) => {
+                numbers(fields).map(|[_, _, _, x, y, z, w]| Self::Of([w, -x, -y, -z]))
             }
-            _ => continue,
-        };
-        let rotation = integers(q).ok_or_else(|| fault(no_rotation()))?;
-        motions.take(images, Ok(posed(images, rotation)));
-    }
-    Ok(())
-}
-
-fn posed(images: [u32; 2], rotation: [i64; 4]) -> Motion {
-    Motion {
-        images,
-        inliers: 0,
-        configuration: None,
-        rotation,
-        vector: None,
-        is_wide: false,
+            (Some("EDGE_SE2"), _) => numbers(fields).map(|[_, _, turn]: [f64; 3]| {
+                let (sine, cosine) = (turn / 2.0).sin_cos();
+                Self::Of([cosine, 0.0, 0.0, -sine])
+            }),
+            (Some(tag), _) if tag.starts_with("EDGE_") => Ok(Self::None),
+            (None, 7) => numbers(fields).map(Self::Of),
+            (None, 12) => numbers(fields).map(|[a, b, c, d, e, f, g, h, i]| {
+                Self::EitherWay(quaternion(&[[a, b, c], [d, e, f], [g, h, i]]))
+            }),
+            _ => return None,
+        })
     }
 }
 
-/// The two nodes that a line names from this field on, if they are two.
-fn ends(fields: &[&str], from: usize, nodes: &HashMap<String, u32>) -> Option<[u32; 2]> {
-    let [a, b] = [fields.get(from)?, fields.get(from + 1)?].map(|name| nodes.get(*name));
-    a.zip(b).map(|(&a, &b)| [a, b]).filter(|[a, b]| a != b)
-}
-
+/// The first so many numbers.
 fn numbers<const N: usize>(fields: &[&str]) -> Result<[f64; N], Problem> {
     let all = fields.iter().take(N).map(|field| field.parse().ok());
     let all: Option<Vec<f64>> = all.collect();

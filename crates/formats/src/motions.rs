@@ -60,6 +60,17 @@ impl Unchecked {
 /// What is measured of a pair, or why nothing is; of a pair with too few points in front, its motion all the same.
 pub(crate) type Measured = Result<Motion, (Unchecked, Option<Motion>)>;
 
+/// What holds motions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// A COLMAP database.
+    Database,
+    /// A pose graph, whose odometry leads from each number to the next.
+    PoseGraph,
+    /// A list of relative poses.
+    Poses,
+}
+
 /// The motions of all pairs of an input.
 #[derive(Clone, Debug)]
 pub struct Motions {
@@ -77,9 +88,9 @@ pub struct Motions {
     pub unchecked: BTreeMap<Unchecked, usize>,
     /// The pairs that cannot be checked and join images all the same.
     pub others: Vec<[u32; 2]>,
-    /// Whether this is a COLMAP database.
-    pub is_database: bool,
-    /// Its hash, if that was asked.
+    /// What they are of.
+    pub source: Source,
+    /// The hash of the database, if that was asked.
     pub hash: Option<String>,
     /// Whether rotations may be meant from the second image to the first.
     pub either_way: bool,
@@ -95,7 +106,7 @@ impl Motions {
             excluded: Vec::new(),
             unchecked: BTreeMap::new(),
             others: Vec::new(),
-            is_database: false,
+            source: Source::Poses,
             hash: None,
             either_way: false,
         }

@@ -2,14 +2,15 @@
 
 use super::json::write_line;
 use super::{counted, text};
-use serde::Serialize;
+use serde_json::{Value, json};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::time::Duration;
 use viewcert::wording::printable;
-use viewcert_advice::contradictions::{Contradictions, Look};
+use viewcert_advice::contradictions::{Contradictions, Look, Packing, Terms};
 use viewcert_advice::export::{python, shell};
-use viewcert_formats::Motions;
+use viewcert_formats::{Motions, Source};
 
 /// What a line about contradictions begins with.
 const TITLE: &str = "contradictions  ";
@@ -68,21 +69,18 @@ impl ContradictionsReport<'_> {
     pub fn answer(&self) -> String {
         let (motions, found) = (self.motions, self.found);
         let checkable = counted(motions.pairs.len(), "checkable pair");
-        let [theta, _] = found.angles;
-        let mut besides = Vec::new();
-        match found.without_cycle {
-            0 => {}
-            1 => besides.push("1 is in no cycle".to_owned()),
-            count => besides.push(format!("{count} are in no cycle")),
-        }
-        let unchecked = motions.unchecked.values().sum::<usize>();
-        if unchecked > 0 {
-            let why: Vec<&str> = motions.unchecked.keys().map(|why| why.name()).collect();
-            besides.push(format!(
-                "{unchecked} cannot be checked ({})",
-                why.join(", ")
-            ));
-        }
+        let theta = found.packing.terms.theta;
+        let alone = match found.without_cycle {
+            0 => None,
+            1 => Some("1 is in no cycle".to_owned()),
+            count => Some(format!("{count} are in no cycle")),
+        };
+        let why: Vec<&str> = motions.unchecked.keys().map(|why| why.name()).collect();
+        let unchecked = (!why.is_empty()).then(|| {
+            let unchecked = motions.unchecked.values().sum::<usize>();
+            format!("{unchecked} cannot be checked ({})", why.join(", "))
+        });
+        let besides: Vec<String> = alone.into_iter().chain(unchecked).collect();
         let besides = match besides.is_empty() {
             true => String::new(),
             false => format!("; {}", besides.join(", ")),
@@ -105,26 +103,37 @@ impl ContradictionsReport<'_> {
 
     /// The half sentences about a smaller angle and about directions.
     fn further(&self) -> Option<String> {
-        let [theta, phi] = self.found.angles;
-        let finer = self.found.finer.as_ref().map(|(finer, packing)| {
+        let by = |packing: &Packing| format!("at least {} by more than", packing.at_least());
+        let finer = self.found.finer.as_ref().map(|packing| {
+            let theta = packing.terms.theta;
             format!(
-                "at least {} by more than {finer} degrees, which right pairs may come close to",
-                packing.at_least()
+                "{} {theta} degrees, which right pairs may come close to",
+                by(packing)
             )
         });
         let directed = self.found.directed.as_ref().map(|packing| {
-            format!(
-                "at least {} by more than {theta} degrees or {phi} in direction",
-                packing.at_least()
-            )
+            let Terms { theta, phi, .. } = packing.terms;
+            format!("{} {theta} degrees or {phi} in direction", by(packing))
         });
         let both: Vec<String> = finer.into_iter().chain(directed).collect();
         (!both.is_empty()).then(|| both.join("; "))
     }
 
     /// The first line of what follows if neighbours are right.
-    pub fn neighbours(&self) -> Option<String> {
+    fn neighbours(&self) -> Option<String> {
         let found = self.found.neighbours.as_ref()?;
+        let others = others(found.packing.at_least());
+        if self.motions.source == Source::PoseGraph {
+            let Terms {
+                theta,
+                assumed_within,
+                ..
+            } = found.packing.terms;
+            let within = f64::from(assumed_within) / 1000.0;
+            return Some(format!(
+                "if each step of the odometry is right within {within} degrees: at least {others} off by more than {theta}"
+            ));
+        }
         let first = found.first.map(|pair| {
             let inliers = counted(self.motions.pairs[pair as usize].inliers as usize, "inlier");
             format!(", first {} ({inliers})", self.pair(pair))
@@ -133,25 +142,16 @@ impl ContradictionsReport<'_> {
             1 => String::new(),
             window => format!(" ({window} files apart at most)"),
         };
+        let first = first.unwrap_or_default();
         Some(format!(
-            "if neighbours by name{within} are right: at least {} wrong{}",
-            match found.packing.at_least() {
-                1 => "1 other is".to_owned(),
-                count => format!("{count} others are"),
-            },
-            first.unwrap_or_default()
+            "if neighbours by name{within} are right: at least {others} wrong{first}"
         ))
     }
 
     /// Which pairs to look at.
-    pub fn look_at(&self) -> Option<String> {
-        let pairs: Vec<String> = self
-            .found
-            .look_at
-            .iter()
-            .map(|look| self.pair(look.pair))
-            .collect();
-        match &pairs[..] {
+    fn look_at(&self) -> Option<String> {
+        let pairs = self.found.look_at.iter().map(|look| self.pair(look.pair));
+        match &pairs.collect::<Vec<_>>()[..] {
             [one, other] => Some(format!(
                 "look at {one} and {other}: one of the two groups is wrong"
             )),
@@ -162,61 +162,42 @@ impl ContradictionsReport<'_> {
 
     /// What a pair says from both sides.
     fn sides(&self, look: &Look) -> String {
-        let [theta, _] = self.found.angles;
-        let others = |count: usize| match count {
-            1 => "1 other is".to_owned(),
-            _ => format!("{count} others are"),
-        };
-        let mut sides = format!(
-            "{}: if it is right, {} off",
-            self.pair(look.pair),
-            others(look.if_right)
-        );
-        if look.if_off > 0 {
-            let far = 3 * theta;
-            let by = format!(
-                "; if it is off by more than {far} degrees, {} off by more than {theta}",
-                others(look.if_off)
-            );
-            sides += &by;
+        let theta = self.found.packing.terms.theta;
+        let pair = self.pair(look.pair);
+        let right = format!("{pair}: if it is right, {} off", others(look.if_right));
+        if look.if_off == 0 {
+            return right;
         }
-        sides
+        let (far, off) = (3 * theta, others(look.if_off));
+        format!("{right}; if it is off by more than {far} degrees, {off} off by more than {theta}")
     }
 
     /// A pair by its names; without their ending, where all have the same.
     fn pair(&self, pair: u32) -> String {
-        let ending = self.ending();
-        let [one, other] = self.names(pair).map(|name| {
-            let name = name
-                .strip_suffix(ending.as_str())
-                .unwrap_or(&name)
-                .to_owned();
-            printable(&name)
-        });
-        format!("{one}-{other}")
+        let ending = self.ending().unwrap_or_default();
+        let names = self.names(pair);
+        let names = names.map(|name| printable(name.strip_suffix(&*ending).unwrap_or(&name)));
+        names.join("-")
     }
 
-    fn names(&self, pair: u32) -> [String; 2] {
+    fn names(&self, pair: u32) -> [Cow<'_, str>; 2] {
         let images = self.motions.pairs[pair as usize].images;
-        images.map(|image| self.motions.labels.label(image).into_owned())
+        images.map(|image| self.motions.labels.label(image))
+    }
+
+    /// The pairs that are in contradictions.
+    pub(crate) fn contradicting(&self) -> Vec<[Cow<'_, str>; 2]> {
+        let pairs = self.found.packing.pairs().into_iter();
+        pairs.map(|pair| self.names(pair)).collect()
     }
 
     /// The ending that all names have, with its point.
-    fn ending(&self) -> String {
-        let mut endings = (0..self.motions.images as u32).map(|image| {
-            let name = self.motions.labels.label(image);
-            name.rfind('.')
-                .filter(|&at| at > 0)
-                .map(|at| name[at..].to_owned())
-        });
-        let first = endings.next().flatten().unwrap_or_default();
-        let is_common = endings.all(|ending| ending.as_ref() == Some(&first));
-        let is_word = first.chars().any(char::is_alphabetic);
-        if is_common && is_word {
-            first
-        } else {
-            String::new()
-        }
+    fn ending(&self) -> Option<String> {
+        let mut names = (0..self.motions.images as u32).map(|v| self.motions.labels.label(v));
+        let first = names.next()?;
+        let ending = &first[first.rfind('.').filter(|&at| at > 0)?..];
+        let is_word = ending.chars().any(char::is_alphabetic);
+        (is_word && names.all(|name| name.ends_with(ending))).then(|| ending.to_owned())
     }
 
     fn uncalibrated(&self) -> usize {
@@ -252,7 +233,7 @@ impl ContradictionsReport<'_> {
 
     /// The recipe: the neighbours mapped alone, and two models held against each other.
     fn next(&self) -> Vec<String> {
-        if self.is_good() || !self.motions.is_database {
+        if self.is_good() || self.motions.source != Source::Database {
             return Vec::new();
         }
         let window = self
@@ -261,8 +242,9 @@ impl ContradictionsReport<'_> {
             .as_ref()
             .map_or(1, |found| found.window);
         let script = format!(
-            "import pycolmap, shutil, sqlite3; shutil.copy({}, 'neighbours.db'); d = sqlite3.connect('neighbours.db'); \
-             ids = [i for i, in d.execute('select image_id from images order by name')]; \
+            "import pycolmap, re, sqlite3; d = sqlite3.connect('neighbours.db'); sqlite3.connect({}).backup(d); \
+             number = lambda row: [int(x) if x.isdecimal() else x for x in re.split('([0-9]+)', row[1])]; \
+             ids = [i for i, _ in sorted(d.execute('select image_id, name from images'), key=number)]; \
              near = {{2147483647 * min(p) + max(p) for k in range(1, {}) for p in zip(ids, ids[k:])}}; \
              [d.execute('delete from two_view_geometries where pair_id = ?', p) for p in \
              d.execute('select pair_id from two_view_geometries').fetchall() if p[0] not in near]; d.commit(); \
@@ -310,48 +292,42 @@ impl ContradictionsReport<'_> {
     }
 
     /// What is written as JSON.
-    pub fn line(&self) -> ContradictionsLine {
-        let found = self.found;
-        let unchecked = self.motions.unchecked.iter();
-        let contradicting = found.packing.pairs();
-        ContradictionsLine {
-            angle: found.angles[0],
-            at_least: found.at_least(),
-            at_most: found.at_most(),
-            checkable: self.motions.pairs.len(),
-            unchecked: self.motions.unchecked.values().sum(),
-            reasons: unchecked.map(|(why, &count)| (why.name(), count)).collect(),
-            without_cycle: found.without_cycle,
-            uncalibrated: self.uncalibrated(),
-            finer: found.finer.as_ref().map(|(angle, packing)| Finer {
-                angle: *angle,
-                at_least: packing.at_least(),
-            }),
-            directed: found.directed.as_ref().map(|packing| Finer {
-                angle: found.angles[1],
-                at_least: packing.at_least(),
-            }),
-            neighbours: found.neighbours.as_ref().map(|near| NeighboursLine {
-                window: near.window,
-                at_least: near.packing.at_least(),
-                first: near.first.map(|pair| self.names(pair)),
-            }),
-            look_at: found
-                .look_at
-                .iter()
-                .map(|look| LookLine {
-                    images: self.names(look.pair),
-                    inliers: self.motions.pairs[look.pair as usize].inliers,
-                    if_right: look.if_right,
-                    if_off: look.if_off,
-                })
-                .collect(),
-            contradicting: contradicting
-                .into_iter()
-                .map(|pair| self.names(pair))
-                .collect(),
-            answer: self.answer(),
-        }
+    pub(crate) fn line(&self) -> Value {
+        let (motions, found) = (self.motions, self.found);
+        let reasons = motions.unchecked.iter();
+        let reasons: BTreeMap<_, _> = reasons.map(|(why, count)| (why.name(), count)).collect();
+        let finer = found.finer.as_ref();
+        let directed = found.directed.as_ref();
+        let near = found.neighbours.as_ref();
+        let look = |look: &Look| {
+            json!({
+                "images": self.names(look.pair),
+                "inliers": motions.pairs[look.pair as usize].inliers,
+                "if_right": look.if_right,
+                "if_off": look.if_off,
+            })
+        };
+        json!({
+            "answer": self.answer(),
+            "angle": found.packing.terms.theta,
+            "at_least": found.at_least(),
+            "at_most": found.at_most(),
+            "checkable": motions.pairs.len(),
+            "unchecked": motions.unchecked.values().sum::<usize>(),
+            "reasons": reasons,
+            "without_cycle": found.without_cycle,
+            "uncalibrated": self.uncalibrated(),
+            "finer": finer.map(|finer| json!({ "angle": finer.terms.theta, "at_least": finer.at_least() })),
+            "directed": directed.map(|more| json!({ "angle": more.terms.phi, "at_least": more.at_least() })),
+            "neighbours": near.map(|near| json!({
+                "window": near.window,
+                "within": f64::from(near.packing.terms.assumed_within) / 1000.0,
+                "at_least": near.packing.at_least(),
+                "first": near.first.map(|pair| self.names(pair)),
+            })),
+            "look_at": found.look_at.iter().map(look).collect::<Value>(),
+            "contradicting": self.contradicting(),
+        })
     }
 
     /// Writes everything as one line of JSON.
@@ -359,63 +335,19 @@ impl ContradictionsReport<'_> {
     /// # Errors
     /// Those of the writer.
     pub fn write_json(&self, out: &mut impl Write) -> io::Result<()> {
-        let line = Line {
-            input: &self.path,
-            notes: self.notes(),
-            line: self.line(),
-            next: self.next(),
-            seconds: self.time.as_secs_f64(),
-        };
+        let mut line = self.line();
+        line["input"] = json!(self.path);
+        line["notes"] = json!(self.notes());
+        line["next"] = json!(self.next());
+        line["seconds"] = json!(self.time.as_secs_f64());
         write_line(out, "contradictions", None, &line)
     }
 }
 
-#[derive(Serialize)]
-struct Line<'a> {
-    input: &'a str,
-    notes: Vec<String>,
-    #[serde(flatten)]
-    line: ContradictionsLine,
-    next: Vec<String>,
-    seconds: f64,
-}
-
-/// What was found, as JSON.
-#[derive(Serialize)]
-pub struct ContradictionsLine {
-    angle: u32,
-    at_least: usize,
-    at_most: usize,
-    checkable: usize,
-    unchecked: usize,
-    reasons: BTreeMap<&'static str, usize>,
-    without_cycle: usize,
-    uncalibrated: usize,
-    finer: Option<Finer>,
-    directed: Option<Finer>,
-    neighbours: Option<NeighboursLine>,
-    look_at: Vec<LookLine>,
-    contradicting: Vec<[String; 2]>,
-    answer: String,
-}
-
-#[derive(Serialize)]
-struct Finer {
-    angle: u32,
-    at_least: usize,
-}
-
-#[derive(Serialize)]
-struct NeighboursLine {
-    window: u32,
-    at_least: usize,
-    first: Option<[String; 2]>,
-}
-
-#[derive(Serialize)]
-struct LookLine {
-    images: [String; 2],
-    inliers: u32,
-    if_right: usize,
-    if_off: usize,
+/// "1 other is", "3 others are".
+fn others(count: usize) -> String {
+    match count {
+        1 => "1 other is".to_owned(),
+        _ => format!("{count} others are"),
+    }
 }

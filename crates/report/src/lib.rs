@@ -181,7 +181,7 @@ impl Report<'_> {
     /// As of [`json`](Self::json).
     pub fn page(&self) -> io::Result<Vec<u8>> {
         let mut out = Vec::new();
-        page::write(&mut out, self, &Scene::of(self, &[]), None)?;
+        page::write(&mut out, self, &Scene::of(self, &[], &[]), None)?;
         Ok(out)
     }
 }

@@ -12,10 +12,11 @@ use super::{
 };
 use crate::advice::{joints as write_joints, photograph, suggestions as write_suggestions};
 use crate::assumptions::BaseLines;
-use crate::contradictions::{Contradicted, ContradictionsLine};
+use crate::contradictions::Contradicted;
 use crate::intrinsics::IntrinsicsLine;
 use crate::shown::several;
 use serde::Serialize;
+use serde_json::Value;
 use std::cell::OnceCell;
 use std::collections::HashMap;
 use std::io::{self, Write};
@@ -669,7 +670,7 @@ struct Line<'a> {
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     without_base_line: &'a [WithoutBaseLine],
     #[serde(skip_serializing_if = "Option::is_none")]
-    contradictions: Option<ContradictionsLine>,
+    contradictions: Option<Value>,
     narrow: &'a Narrow,
     #[serde(skip_serializing_if = "Option::is_none")]
     mappers: Option<&'a Foreseen>,

@@ -49,12 +49,10 @@ pub fn html(overview: &Overview, advice: &Advice) -> io::Result<Vec<u8>> {
         text: first,
         rest: &rest[..timed],
     };
+    let motions = overview.contradictions.as_ref().map(|found| found.report());
+    let off = motions.as_ref().map(|found| found.contradicting());
+    let scene = Scene::of(&report, matched, &off.unwrap_or_default());
     let mut page = Vec::new();
-    page::write(
-        &mut page,
-        &report,
-        &Scene::of(&report, matched),
-        Some(&foreword),
-    )?;
+    page::write(&mut page, &report, &scene, Some(&foreword))?;
     Ok(page)
 }

@@ -3,12 +3,12 @@
 //! From a spanning tree of pairs that close triangles, each image takes the rotation with which most of its pairs
 //! agree, of their mean and of what single pairs say. Small graphs try many trees.
 
+use super::Step;
 use super::turns::{Turn, agrees, angle, conj, times, unit};
 use super::web::Web;
 use rayon::prelude::*;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
-use viewcert::graph::UnionFind;
 
 /// Rotations in integers of 24 bits, and the pairs that disagree with them.
 pub(super) struct Average {
@@ -21,14 +21,14 @@ const WORK: usize = 4_000_000;
 const TREES: usize = 64;
 /// Triangles of a pair that count for its place in the tree.
 const TRIANGLES: usize = 24;
-/// Steps of a cycle that says the same of a pair in no triangle.
-const AROUND: usize = 6;
+/// Other steps of a cycle that says the same of a pair in no triangle.
+const AROUND: u32 = 5;
 /// Single pairs whose word an image tries.
 const WORDS: usize = 12;
 /// Rounds through all images.
 const SWEEPS: usize = 24;
-/// How much longer a pair without triangles is.
-const FAR: u64 = 48;
+/// The length of a pair beside what triangles it does not close add: 2^16 if these are all.
+const BASE: u64 = 1 << 10;
 
 /// O(pairs + triangles that are looked at), times the number of trees.
 pub(super) fn average(web: &Web, theta: u32) -> Average {
@@ -42,7 +42,7 @@ pub(super) fn average(web: &Web, theta: u32) -> Average {
             seen += 1;
             closed += usize::from(web.open(&walk) <= limit);
         }
-        let around = || web.around(pair, AROUND, |_| true);
+        let around = || web.around(pair, AROUND, |_| Some(1));
         match seen {
             0 => around().map_or(0, |walk| usize::from(web.open(&walk) <= limit)),
             _ => closed,
@@ -55,16 +55,12 @@ pub(super) fn average(web: &Web, theta: u32) -> Average {
         .unwrap_or(0);
     let trees = (WORK / (pairs * (degree + 1)).max(1)).clamp(1, TREES);
     let found = (0..trees as u64).into_par_iter().map(|seed| {
-        let mut turns = match seed {
-            0 => from_tree(web, &near_tree(web, &support)),
-            seed => from_tree(web, &shuffled_tree(web, &support, seed)),
-        };
+        let mut turns = from_tree(web, &support, seed);
         let sweeps = if trees > 1 { SWEEPS / 4 } else { SWEEPS };
         let _ = (0..sweeps)
             .take_while(|_| improve(web, &mut turns, limit))
             .count();
-        let integer = |turn: &Turn| turn.map(|x| (x * f64::from(1 << 24)).round() as i64);
-        let rotations: Vec<[i64; 4]> = turns.iter().map(integer).collect();
+        let rotations = integers(&turns);
         let beyond = beyond(web, &rotations, theta);
         Average { rotations, beyond }
     });
@@ -73,6 +69,18 @@ pub(super) fn average(web: &Web, theta: u32) -> Average {
         rotations: Vec::new(),
         beyond: Vec::new(),
     })
+}
+
+fn integers(turns: &[Turn]) -> Vec<[i64; 4]> {
+    let integer = |turn: &Turn| turn.map(|x| (x * f64::from(1 << 24)).round() as i64);
+    turns.iter().map(integer).collect()
+}
+
+/// The pairs that disagree with rotations along such that are trusted, increasing.
+pub(super) fn beyond_trusted(web: &Web, is_trusted: impl Fn(u32) -> bool, theta: u32) -> Vec<u32> {
+    let support = (0..web.motions.len() as u32).map(|pair| usize::from(is_trusted(pair)) << 20);
+    let turns = from_tree(web, &support.collect::<Vec<_>>(), 1);
+    beyond(web, &integers(&turns), theta)
 }
 
 /// The pairs that disagree with rotations of all images by more than an angle, increasing.
@@ -89,66 +97,39 @@ pub(super) fn beyond(web: &Web, rotations: &[[i64; 4]], theta: u32) -> Vec<u32> 
     beyond.collect()
 }
 
-/// The pairs of a tree of shortest ways from the image with most pairs, where pairs that close triangles are short.
-fn near_tree(web: &Web, support: &[usize]) -> Vec<bool> {
-    let mut is_in = vec![false; web.motions.len()];
-    let mut done = vec![false; web.images()];
+/// The rotations along a tree: with seed 0 of shortest ways from the image with most pairs, where pairs that close
+/// triangles are short; with another one a shortest spanning tree of such pairs, shuffled.
+fn from_tree(web: &Web, support: &[usize], seed: u64) -> Vec<Turn> {
+    let mut turns: Vec<Option<Turn>> = vec![None; web.images()];
     let mut order: Vec<u32> = (0..web.images() as u32).collect();
     order.sort_by_key(|&image| Reverse(web.at(image).len()));
+    let length = |pair: u32| {
+        let mixed = (u64::from(pair) + 1).wrapping_mul(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));
+        let by = if seed == 0 {
+            256
+        } else {
+            1 + (mixed >> 32 & 0xff)
+        };
+        BASE + (1 << 24) / ((1 + support[pair as usize] as u64) * by)
+    };
     for root in order {
         let mut open = BinaryHeap::from([Reverse((0, root, None))]);
         while let Some(Reverse((cost, image, by))) = open.pop() {
-            if std::mem::replace(&mut done[image as usize], true) {
+            if turns[image as usize].is_some() {
                 continue;
             }
-            if let Some(pair) = by {
-                is_in[pair as usize] = true;
-            }
-            for &(other, (pair, _)) in web.at(image) {
-                if !done[other as usize] {
-                    let further = 1 + FAR / (1 + support[pair as usize] as u64);
-                    open.push(Reverse((cost + further, other, Some(pair))));
-                }
-            }
-        }
-    }
-    is_in
-}
-
-/// The pairs of a spanning tree of pairs that close triangles, shuffled.
-fn shuffled_tree(web: &Web, support: &[usize], seed: u64) -> Vec<bool> {
-    let mut order: Vec<u32> = (0..web.motions.len() as u32).collect();
-    order.sort_by_cached_key(|&pair| {
-        let mixed = (u64::from(pair) + 1).wrapping_mul(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));
-        let value = (support[pair as usize] as u64 + 1) * (mixed >> 32 & 0xff);
-        Reverse((value, web.motions[pair as usize].inliers))
-    });
-    let mut sets = UnionFind::new(web.images());
-    let mut is_in = vec![false; order.len()];
-    for pair in order {
-        let [i, j] = web.motions[pair as usize]
-            .images
-            .map(|image| image as usize);
-        is_in[pair as usize] = sets.union(i, j);
-    }
-    is_in
-}
-
-/// The rotations along the pairs of a spanning tree.
-fn from_tree(web: &Web, is_in: &[bool]) -> Vec<Turn> {
-    let mut turns: Vec<Option<Turn>> = vec![None; web.images()];
-    for root in 0..web.images() as u32 {
-        if turns[root as usize].is_some() {
-            continue;
-        }
-        turns[root as usize] = Some([1.0, 0.0, 0.0, 0.0]);
-        let mut open = vec![root];
-        while let Some(image) = open.pop() {
+            let along = |(from, step): (u32, Step)| {
+                turns[from as usize].map(|turn| unit(times(&web.turn(step), &turn)))
+            };
+            turns[image as usize] = by.and_then(along).or(Some([1.0, 0.0, 0.0, 0.0]));
+            let before = if seed == 0 { cost } else { 0 };
             for &(other, step) in web.at(image) {
-                if is_in[step.0 as usize] && turns[other as usize].is_none() {
-                    turns[other as usize] =
-                        turns[image as usize].map(|turn| unit(times(&web.turn(step), &turn)));
-                    open.push(other);
+                if turns[other as usize].is_none() {
+                    open.push(Reverse((
+                        before + length(step.0),
+                        other,
+                        Some((image, step)),
+                    )));
                 }
             }
         }

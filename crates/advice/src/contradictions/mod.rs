@@ -12,16 +12,15 @@ mod web;
 mod witness;
 
 pub use certificate::certificate;
-pub use packing::Packing;
+pub use packing::{Packing, Terms};
 pub use sides::{Look, Neighbours};
 
-use crate::Nearness;
 use rayon::prelude::*;
 use std::borrow::Cow;
 use std::collections::HashSet;
 use viewcert::graph::{Lists, biconnected_components};
 use viewcert::watch::{Step as Stage, Stopped, Watch};
-use viewcert_formats::{Motion, Motions};
+use viewcert_formats::{Motion, Motions, Source};
 use web::Web;
 
 /// A step along a pair, by its number: from its first image to its second, or back.
@@ -45,14 +44,12 @@ impl Cycle {
 /// What was found.
 #[derive(Clone, Debug)]
 pub struct Contradictions {
-    /// Theta and phi, in degrees.
-    pub angles: [u32; 2],
-    /// The proof of how many are off by more than theta, by rotations alone.
+    /// The proof of how many are off, by rotations alone.
     pub packing: Packing,
-    /// The same with directions, if it is more: by more than theta, or phi in direction.
+    /// The same with directions, if it is more.
     pub directed: Option<Packing>,
     /// The same for a smaller angle, if it is more.
-    pub finer: Option<(u32, Packing)>,
+    pub finer: Option<Packing>,
     /// A rotation of each image.
     pub rotations: Vec<[i64; 4]>,
     /// The pairs that disagree with them by more than theta.
@@ -79,18 +76,13 @@ impl Contradictions {
 
 /// Above so many pairs cycles are looked for only where rotations of all images leave a doubt.
 const ALL: usize = 2000;
-/// Steps of the longest cycles.
-const LONGEST: usize = 17;
+/// The angles of a cycle's pairs sum to so many degrees at most.
+const MOST: u32 = 179;
 /// Cycles of a pair beside those without common pairs, for up to so many pairs in doubt.
 const MORE: usize = 16;
 const DOUBTS: usize = 2000;
 /// The angle that is not enough for an alarm, and worth half a sentence.
 const FINER: u32 = 5;
-
-/// Phi for this theta, in degrees.
-fn phi(theta: u32) -> u32 {
-    (theta + 10).min(89)
-}
 
 /// What contradicts what by more than so many degrees. Where rotations may be meant the other way, the way with
 /// fewer contradictions is the one that counts: the motions that come back are meant so.
@@ -119,55 +111,46 @@ fn one_way(motions: &Motions, theta: u32, watch: &Watch) -> Result<Contradiction
     let task = watch.task(Stage::Cycles, motions.images);
     let pairs = &motions.pairs[..];
     let web = Web::new(pairs, motions.images);
-    let angles = [theta, phi(theta)];
     let average = average::average(&web, theta);
     task.check()?;
-    let open = open_cycles(&web, &average.beyond, theta);
+    let terms = Terms::new(theta);
+    let open = open_cycles(&web, &average.beyond, &terms);
     task.check()?;
-    let packing = Packing::of(verified(pairs, &open, angles), pairs.len(), |_| false);
-    task.check()?;
-    let names: Vec<Cow<'_, str>> = (0..motions.images as u32)
-        .map(|v| motions.labels.label(v))
-        .collect();
-    let near = Nearness::new(&names, &[]);
-    let has_directions = pairs.len() <= ALL && pairs.iter().any(|motion| motion.is_wide);
-    let mut both = open.clone();
-    if has_directions {
-        both.extend(web.short(true, |walk| {
-            let is_closed =
-                walk.len() > 2 && web.open(walk) <= f64::from(theta) * walk.len() as f64;
-            is_closed
-                .then(|| witness::one_way(&web, walk, angles))
-                .flatten()
-        }));
-    }
-    let both = verified(pairs, &both, angles);
-    task.check()?;
-    let directed = has_directions.then(|| Packing::of(both.clone(), pairs.len(), |_| false));
-    let finer = (theta > FINER).then(|| {
-        let beyond = average::beyond(&web, &average.rotations, FINER);
-        let open = open_cycles(&web, &beyond, FINER);
-        Packing::of(
-            verified(pairs, &open, [FINER, phi(FINER)]),
-            pairs.len(),
-            |_| false,
-        )
-    });
+    let packed = |cycles: &[Cycle], terms: Terms| {
+        Packing::of(verified(pairs, cycles, &terms), pairs.len(), terms)
+    };
+    let packing = packed(&open, terms.clone());
     task.check()?;
     let at_least = packing.at_least();
-    let neighbours = (at_least > 0 && motions.is_database)
-        .then(|| sides::neighbours(&web, &motions.others, &both, &near, theta));
+    let is_more = |more: &Packing| more.at_least() > at_least;
+    let mut one_way = Vec::new();
+    if pairs.len() <= ALL && pairs.iter().any(|motion| motion.is_wide) {
+        one_way = web.short(true, |walk| {
+            let is_closed = walk.len() > 2 && web.open(walk) <= f64::from(terms.sum(walk));
+            let found = is_closed.then(|| witness::one_way(&web, walk, [theta, terms.phi]));
+            found.flatten()
+        });
+    }
+    task.check()?;
+    let directed = (!one_way.is_empty()).then(|| packed(&[&open[..], &one_way].concat(), terms));
+    let finer = (theta > FINER).then(|| {
+        let beyond = average::beyond(&web, &average.rotations, FINER);
+        let terms = Terms::new(FINER);
+        packed(&open_cycles(&web, &beyond, &terms), terms)
+    });
+    task.check()?;
+    let names_neighbours = match motions.source {
+        Source::Database => at_least > 0,
+        Source::PoseGraph => true,
+        Source::Poses => false,
+    };
+    let neighbours = names_neighbours.then(|| sides::neighbours(&web, motions, &one_way, theta));
     Ok(Contradictions {
-        angles,
-        directed: directed.filter(|more| more.at_least() > at_least),
-        finer: finer
-            .filter(|more| more.at_least() > at_least)
-            .map(|more| (FINER, more)),
+        directed: directed.filter(is_more),
+        finer: finer.filter(is_more),
         look_at: sides::look_at(&web, &open, &average.beyond, theta),
         without_cycle: without_cycle(pairs, motions.images),
-        neighbours: neighbours
-            .flatten()
-            .filter(|found| found.packing.at_least() > 0),
+        neighbours: neighbours.flatten(),
         packing,
         rotations: average.rotations,
         beyond: average.beyond,
@@ -175,30 +158,31 @@ fn one_way(motions: &Motions, theta: u32, watch: &Watch) -> Result<Contradiction
 }
 
 /// The cycles that integers confirm.
-fn verified(pairs: &[Motion], cycles: &[Cycle], angles: [u32; 2]) -> Vec<Cycle> {
+fn verified(pairs: &[Motion], cycles: &[Cycle], terms: &Terms) -> Vec<Cycle> {
     let holds = |cycle: &&Cycle| match cycle.witness {
-        None => turns::is_open(pairs, &cycle.walk, angles[0]),
-        Some(_) => turns::is_one_way(pairs, cycle, angles),
+        None => turns::is_open(pairs, &cycle.walk, terms.sum(&cycle.walk)),
+        Some(_) => turns::is_one_way(pairs, cycle, [terms.theta, terms.phi]),
     };
     cycles.par_iter().filter(holds).cloned().collect()
 }
 
-/// Cycles whose composed rotation turns by more than theta a step. First, for each pair that disagrees with the
-/// rotations of all images, one with no other such pair, such that they share no pair; then all short ones of a
-/// small graph, and some more of single pairs.
-fn open_cycles(web: &Web, beyond: &[u32], theta: u32) -> Vec<Cycle> {
-    let is_open = |walk: &[Step]| web.open(walk) > f64::from(theta) * walk.len() as f64 + 1e-6;
+/// Cycles whose composed rotation turns by more than their pairs may be off. First, for each pair in doubt that is
+/// not assumed right, one with no other such pair, such that they share no pair; then all short ones of a small
+/// graph, and some more of single pairs.
+fn open_cycles(web: &Web, doubts: &[u32], terms: &Terms) -> Vec<Cycle> {
+    let is_open = |walk: &[Step]| {
+        let sum = terms.sum(walk);
+        sum <= MOST && web.open(walk) > f64::from(sum) + 1e-6
+    };
     let cycle = |walk: Vec<Step>| Cycle {
         walk,
         witness: None,
     };
-    let most = LONGEST.min(179 / theta as usize);
-    let mut is_beyond = vec![false; web.motions.len()];
-    beyond
-        .iter()
-        .for_each(|&pair| is_beyond[pair as usize] = true);
-    let (mut used, nothing) = (is_beyond.clone(), vec![false; web.motions.len()]);
-    let mut doubts = beyond.to_vec();
+    let mut is_doubtful = vec![false; web.motions.len()];
+    doubts.iter().for_each(|&k| is_doubtful[k as usize] = true);
+    let (mut used, nothing) = (is_doubtful.clone(), vec![false; web.motions.len()]);
+    let is_free = |is_used: &[bool], pair: u32| !is_used[pair as usize] || terms.is_assumed(pair);
+    let mut doubts = doubts.to_vec();
     let degree = |image: u32| web.at(image).len();
     doubts.sort_by_key(|&pair| {
         let [i, j] = web.motions[pair as usize].images;
@@ -206,32 +190,29 @@ fn open_cycles(web: &Web, beyond: &[u32], theta: u32) -> Vec<Cycle> {
     });
     let (mut found, mut further) = (Vec::new(), Vec::new());
     for &pair in &doubts {
-        let free = |is_used: &[bool], walk: &[Step]| {
-            walk.len() <= most && walk[1..].iter().all(|step| !is_used[step.0 as usize])
+        let near = |is_used: &[bool], walk: &[Step]| {
+            walk[1..].iter().all(|step| is_free(is_used, step.0)) && is_open(walk)
         };
-        let first = web
-            .triangles(pair)
-            .find(|walk| free(&used, walk) && is_open(walk));
         let around = |is_used: &[bool]| {
-            let walk = web.around(pair, most, |other| !is_used[other as usize]);
+            let cost = |other| is_free(is_used, other).then(|| terms.within(other));
+            let walk = web.around(pair, 1000 * MOST - terms.within(pair), cost);
             walk.filter(|walk| is_open(walk))
         };
+        let first = web.triangles(pair).find(|walk| near(&used, walk));
         if let Some(walk) = first.or_else(|| around(&used)) {
             walk.iter().for_each(|step| used[step.0 as usize] = true);
             found.push(cycle(walk));
         }
         if doubts.len() <= DOUBTS {
-            let more = web
-                .triangles(pair)
-                .filter(|walk| free(&is_beyond, walk) && is_open(walk));
+            let more = web.triangles(pair).filter(|walk| near(&is_doubtful, walk));
             further.extend(more.take(MORE).map(cycle));
-            further.extend(around(&is_beyond).map(cycle));
+            further.extend(around(&is_doubtful).map(cycle));
             further.extend(around(&nothing).map(cycle));
         }
     }
     if web.motions.len() <= ALL {
-        found.extend(web.short(most >= 4, |walk| {
-            (walk.len() <= most && is_open(walk)).then(|| cycle(walk.to_vec()))
+        found.extend(web.short(4 * terms.theta <= MOST, |walk| {
+            is_open(walk).then(|| cycle(walk.to_vec()))
         }));
     }
     found.extend(further);

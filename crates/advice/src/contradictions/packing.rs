@@ -3,14 +3,58 @@
 //! The simplex method finds them where few pairs hang together, in floats; integers that were rounded down and
 //! counted again are the proof. Elsewhere cycles without common pairs are taken one after another.
 
-use super::Cycle;
+use super::{Cycle, Step};
 use rayon::prelude::*;
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 use viewcert::graph::UnionFind;
 
-/// Cycles with weights over one denominator.
-#[derive(Clone, Debug, Default)]
+/// By how much pairs may be off and be right all the same, in degrees.
+#[derive(Clone, Debug)]
+pub struct Terms {
+    /// Their rotations.
+    pub theta: u32,
+    /// Their directions.
+    pub phi: u32,
+    /// The pairs that are supposed to be right, increasing.
+    pub assumed: Vec<u32>,
+    /// The rotations of these, in thousandths of a degree.
+    pub assumed_within: u32,
+}
+
+impl Terms {
+    pub(super) fn new(theta: u32) -> Self {
+        Self {
+            theta,
+            phi: (theta + 10).min(89),
+            assumed: Vec::new(),
+            assumed_within: 1000 * theta,
+        }
+    }
+
+    pub(super) fn is_assumed(&self, pair: u32) -> bool {
+        self.assumed.binary_search(&pair).is_ok()
+    }
+
+    /// By how much the rotation of a pair may be off, in thousandths of a degree.
+    pub(super) fn within(&self, pair: u32) -> u32 {
+        match self.is_assumed(pair) {
+            true => self.assumed_within,
+            false => 1000 * self.theta,
+        }
+    }
+
+    /// By how many degrees that of a walk may be, rounded up.
+    pub(super) fn sum(&self, walk: &[Step]) -> u32 {
+        let sum: u32 = walk.iter().map(|step| self.within(step.0)).sum();
+        sum.div_ceil(1000)
+    }
+}
+
+/// Cycles with weights over one denominator: a proof of how many pairs are off.
+#[derive(Clone, Debug)]
 pub struct Packing {
+    /// From when on they are, and what is supposed.
+    pub terms: Terms,
     /// The cycles that have a weight, and their weights.
     pub cycles: Vec<(Cycle, u64)>,
     /// What the weights are over.
@@ -28,7 +72,7 @@ impl Packing {
     /// At least so many pairs are off.
     pub fn at_least(&self) -> usize {
         let sum: u64 = self.cycles.iter().map(|(_, weight)| weight).sum();
-        sum.div_ceil(self.denominator.max(1)) as usize
+        sum.div_ceil(self.denominator) as usize
     }
 
     /// The pairs of its cycles, increasing.
@@ -42,85 +86,62 @@ impl Packing {
 
     /// Packs cycles, whose order says which are taken first where there are many; pairs that are assumed carry
     /// any weight.
-    pub(super) fn of(cycles: Vec<Cycle>, pairs: usize, is_assumed: impl Fn(u32) -> bool) -> Self {
-        let rows = |cycle: &Cycle| {
+    pub(super) fn of(cycles: Vec<Cycle>, pairs: usize, terms: Terms) -> Self {
+        let free = |cycle: &Cycle| {
             let all = cycle.walk.iter().map(|&(pair, _)| pair);
-            all.filter(|&pair| !is_assumed(pair)).collect::<Vec<u32>>()
+            all.filter(|&pair| !terms.is_assumed(pair)).collect()
         };
-        let columns: Vec<Vec<u32>> = cycles.iter().map(rows).collect();
+        let columns: Vec<Vec<u32>> = cycles.iter().map(free).collect();
         let mut sets = UnionFind::new(pairs);
-        for column in &columns {
-            column.windows(2).for_each(|two| {
-                sets.union(two[0] as usize, two[1] as usize);
-            });
+        for two in columns.iter().flat_map(|column| column.windows(2)) {
+            sets.union(two[0] as usize, two[1] as usize);
         }
         let mut groups: HashMap<usize, Vec<usize>> = HashMap::new();
-        for (k, column) in columns
-            .iter()
-            .enumerate()
-            .filter(|(_, column)| !column.is_empty())
-        {
-            groups
-                .entry(sets.find(column[0] as usize))
-                .or_default()
-                .push(k);
-        }
-        let mut weights = vec![0u64; cycles.len()];
-        let mut carried = vec![0u64; pairs];
-        for group in groups.values() {
-            let mut numbers: HashMap<u32, u32> = HashMap::new();
-            let number = |pair: u32, numbers: &mut HashMap<u32, u32>| {
-                let next = numbers.len() as u32;
-                *numbers.entry(pair).or_insert(next)
-            };
-            let local = group.iter().map(|&k| {
-                let column = columns[k].iter().map(|&pair| number(pair, &mut numbers));
-                column.collect::<Vec<u32>>()
-            });
-            let local: Vec<Vec<u32>> = local.collect();
-            if numbers.len() <= MOST_ROWS && local.len() <= MOST_COLUMNS {
-                for (&k, share) in group.iter().zip(simplex(numbers.len(), &local)) {
-                    weights[k] = (share.clamp(0.0, 1.0) * DENOMINATOR as f64) as u64;
-                }
-            } else {
-                weights_of_disjoint(group, &columns, &mut weights);
+        for (k, column) in columns.iter().enumerate() {
+            if let Some(&first) = column.first() {
+                groups.entry(sets.find(first as usize)).or_default().push(k);
             }
         }
-        let kept =
-            cycles
-                .into_iter()
-                .zip(columns)
-                .zip(weights)
-                .filter_map(|((cycle, column), weight)| {
-                    let room = column
-                        .iter()
-                        .map(|&pair| DENOMINATOR - carried[pair as usize])
-                        .min();
-                    let weight = weight.min(room.unwrap_or(0));
-                    column
-                        .iter()
-                        .for_each(|&pair| carried[pair as usize] += weight);
-                    (weight > 0).then_some((cycle, weight))
+        let mut weights = vec![0; cycles.len()];
+        for group in groups.values() {
+            let mut numbers: HashMap<u32, u32> = HashMap::new();
+            let local = group.iter().map(|&k| {
+                let column = columns[k].iter().map(|&pair| {
+                    let next = numbers.len() as u32;
+                    *numbers.entry(pair).or_insert(next)
                 });
-        let cycles: Vec<_> = kept.collect();
-        let is_whole = cycles.iter().all(|(_, weight)| *weight == DENOMINATOR);
-        let cycles = cycles
-            .into_iter()
-            .map(|(cycle, weight)| (cycle, if is_whole { 1 } else { weight }));
-        Self {
-            cycles: cycles.collect(),
-            denominator: if is_whole { 1 } else { DENOMINATOR },
+                column.collect()
+            });
+            let local: Vec<Vec<u32>> = local.collect();
+            let is_small = numbers.len() <= MOST_ROWS && local.len() <= MOST_COLUMNS;
+            let shares = match is_small {
+                true => simplex(numbers.len(), &local),
+                // The room below is for whoever comes first.
+                false => vec![1.0; local.len()],
+            };
+            for (&k, share) in group.iter().zip(shares) {
+                weights[k] = (share.clamp(0.0, 1.0) * DENOMINATOR as f64) as u64;
+            }
         }
-    }
-}
-
-/// Whole weights for cycles in their order, where nothing of them is taken.
-fn weights_of_disjoint(group: &[usize], columns: &[Vec<u32>], weights: &mut [u64]) {
-    let mut taken: HashSet<u32> = HashSet::new();
-    for &k in group {
-        if columns[k].iter().all(|pair| !taken.contains(pair)) {
-            taken.extend(&columns[k]);
-            weights[k] = DENOMINATOR;
+        let mut room = vec![DENOMINATOR; pairs];
+        let kept = cycles.into_iter().zip(columns).zip(weights);
+        let kept = kept.filter_map(|((cycle, column), weight)| {
+            let least = column.iter().map(|&pair| room[pair as usize]).min();
+            let weight = least.unwrap_or(0).min(weight);
+            for &pair in &column {
+                room[pair as usize] -= weight;
+            }
+            (weight > 0).then_some((cycle, weight))
+        });
+        let mut cycles: Vec<(Cycle, u64)> = kept.collect();
+        let is_whole = cycles.iter().all(|(_, weight)| *weight == DENOMINATOR);
+        if is_whole {
+            cycles.iter_mut().for_each(|(_, weight)| *weight = 1);
+        }
+        Self {
+            terms,
+            cycles,
+            denominator: if is_whole { 1 } else { DENOMINATOR },
         }
     }
 }
@@ -213,7 +234,15 @@ mod tests {
             walk: walk.iter().map(|&pair| (pair, true)).collect(),
             witness: None,
         };
-        let packing = Packing::of(walks.iter().map(cycle).collect(), 6, |_| false);
+        let packed = |assumed: &[u32]| {
+            let assumed = assumed.to_vec();
+            let terms = Terms {
+                assumed,
+                ..Terms::new(10)
+            };
+            Packing::of(walks.iter().map(cycle).collect(), 6, terms)
+        };
+        let packing = packed(&[]);
         assert_eq!(packing.at_least(), 2);
         let of = |pair: u32| {
             let through = packing.cycles.iter();
@@ -222,7 +251,6 @@ mod tests {
         };
         assert!((0..6).all(|pair| of(pair) <= packing.denominator));
         // What is assumed carries any weight.
-        let packing = Packing::of(walks.iter().map(cycle).collect(), 6, |pair| pair < 3);
-        assert_eq!(packing.at_least(), 2);
+        assert_eq!(packed(&[0, 1, 2]).at_least(), 2);
     }
 }

@@ -1,13 +1,14 @@
 //! What single pairs are in question, from both sides; and what follows if neighbours are right.
 
-use super::packing::Packing;
+use super::average::beyond_trusted;
+use super::packing::{Packing, Terms};
 use super::web::Web;
-use super::{Cycle, LONGEST, Step};
-use crate::Near;
-use crate::Nearness;
+use super::{ALL, Cycle, Step, open_cycles, verified};
+use crate::{Near, Nearness};
 use std::cmp::Reverse;
 use std::collections::HashSet;
 use viewcert::graph::UnionFind;
+use viewcert_formats::{Motions, Source};
 
 /// A pair in question.
 #[derive(Clone, Copy, Debug)]
@@ -25,9 +26,7 @@ pub struct Look {
 pub struct Neighbours {
     /// How many files apart they are at most.
     pub window: u32,
-    /// The pairs that are assumed to be right, increasing.
-    pub assumed: Vec<u32>,
-    /// The proof that others are wrong.
+    /// The proof that others are off.
     pub packing: Packing,
     /// Which of them to look at first: the one with most inliers that is off by far along its neighbours.
     pub first: Option<u32>,
@@ -37,36 +36,29 @@ pub struct Neighbours {
 const MORE: u32 = 2;
 /// Files apart of images that are near, for where to look first.
 const NEAR: u32 = 3;
+/// By how many thousandths of a degree a step of odometry may be off and be right: the first that half of the other
+/// pairs do not contradict.
+const ODOMETRY: [u32; 3] = [10, 100, 1000];
 
 fn look(web: &Web, cycles: &[Cycle], pair: u32, theta: u32) -> Look {
-    let mut used = HashSet::new();
-    let through = cycles.iter().filter(|cycle| cycle.has(pair));
-    let if_right = through.filter(|cycle| {
-        let others = || {
-            cycle
-                .walk
-                .iter()
-                .map(|step| step.0)
-                .filter(|&other| other != pair)
+    // Walks through the pair of which no two have another pair in common.
+    let count = |walks: &mut dyn Iterator<Item = &[Step]>| {
+        let mut used = HashSet::from([pair]);
+        let is_apart = |walk: &&[Step]| {
+            let others = walk.iter().filter(|step| step.0 != pair);
+            let is_free = others.clone().all(|step| !used.contains(&step.0));
+            used.extend(others.filter(|_| is_free).map(|step| step.0));
+            is_free
         };
-        let is_free = others().all(|other| !used.contains(&other));
-        if is_free {
-            used.extend(others());
-        }
-        is_free
-    });
-    let if_right = if_right.count();
-    let mut used = HashSet::new();
-    let closed = web
-        .triangles(pair)
-        .filter(|walk| walk.len() == 3 && web.open(walk) < f64::from(theta) - 0.01);
-    let if_off = closed
-        .filter(|walk| used.insert(walk[1].0) & used.insert(walk[2].0))
-        .count();
+        walks.filter(is_apart).count()
+    };
+    let through = cycles.iter().filter(|cycle| cycle.has(pair));
+    let is_closed = |walk: &Vec<Step>| walk.len() == 3 && web.open(walk) < f64::from(theta) - 0.01;
+    let closed: Vec<Vec<Step>> = web.triangles(pair).filter(is_closed).collect();
     Look {
         pair,
-        if_right,
-        if_off,
+        if_right: count(&mut through.map(|cycle| &cycle.walk[..])),
+        if_off: count(&mut closed.iter().map(|walk| &walk[..])),
     }
 }
 
@@ -104,22 +96,21 @@ pub(super) fn look_at(web: &Web, cycles: &[Cycle], beyond: &[u32], theta: u32) -
 }
 
 /// What follows if neighbours by name are right; nothing, where names do not say who they are, or neighbours
-/// contradict each other. `cycles` are those without closure, of both kinds.
+/// contradict each other. Of a pose graph they are its odometry, which most of the other pairs have to agree with.
+/// `directed` are the cycles of directions that contradict.
 pub(super) fn neighbours(
     web: &Web,
-    unchecked: &[[u32; 2]],
-    cycles: &[Cycle],
-    near: &Nearness,
+    motions: &Motions,
+    directed: &[Cycle],
     theta: u32,
 ) -> Option<Neighbours> {
-    let motions = web.motions;
+    let names = (0..motions.images as u32).map(|image| motions.labels.label(image));
+    let near = &Nearness::new(&names.collect::<Vec<_>>(), &[]);
+    let pairs = &motions.pairs;
     let near_by = |window: u32| move |[i, j]: [u32; 2]| matches!(near.of(i, j), Some(Near::Name(steps)) if steps <= window);
-    let all = 0..motions.len() as u32;
-    let median = |pairs: Vec<u32>| {
-        let mut inliers: Vec<u32> = pairs
-            .iter()
-            .map(|&pair| motions[pair as usize].inliers)
-            .collect();
+    let median = |pairs: &[u32]| {
+        let inliers = pairs.iter().map(|&pair| web.motions[pair as usize].inliers);
+        let mut inliers: Vec<u32> = inliers.collect();
         inliers.sort_unstable();
         inliers.get(inliers.len() / 2).copied().unwrap_or(0)
     };
@@ -127,50 +118,61 @@ pub(super) fn neighbours(
     let window = (1..=2).find(|&window| {
         let mut sets = UnionFind::new(web.images());
         let (mut has_pair, mut joined) = (vec![false; web.images()], 0);
-        let of_motions = motions.iter().map(|motion| motion.images);
-        for [i, j] in of_motions.chain(unchecked.iter().copied()) {
+        let of_motions = pairs.iter().map(|motion| motion.images);
+        for [i, j] in of_motions.chain(motions.others.iter().copied()) {
             (has_pair[i as usize], has_pair[j as usize]) = (true, true);
             joined += usize::from(near_by(window)([i, j]) && sets.union(i as usize, j as usize));
         }
         joined + 1 == has_pair.iter().filter(|has| **has).count()
     })?;
-    let is_near = near_by(window);
+    let is_near = |pair: u32, window| near_by(window)(pairs[pair as usize].images);
     let (assumed, others): (Vec<u32>, Vec<u32>) =
-        all.partition(|&pair| is_near(motions[pair as usize].images));
-    if median(assumed.clone()) < MORE * median(others.clone()) {
+        (0..pairs.len() as u32).partition(|&pair| is_near(pair, window));
+    if median(&assumed) < MORE * median(&others) {
         return None;
     }
+    let is_database = motions.source == Source::Database;
+    let most = if is_database {
+        others.len()
+    } else {
+        others.len() / 2
+    };
     let is_assumed = |pair: u32| assumed.binary_search(&pair).is_ok();
-    let free = |cycle: &Cycle| cycle.walk.iter().filter(|step| !is_assumed(step.0)).count();
-    if cycles.iter().any(|cycle| free(cycle) == 0) {
-        return None;
+    let mut doubts = others;
+    if pairs.len() > ALL {
+        doubts = beyond_trusted(web, is_assumed, theta);
+        doubts.retain(|&pair| !is_assumed(pair));
     }
-    let limit = f64::from(theta);
-    let chains = others.iter();
-    let chains = chains.filter_map(|&pair| web.around(pair, usize::MAX, is_assumed));
-    let chains = chains.map(|walk| Cycle {
-        walk,
-        witness: None,
-    });
-    let chains: Vec<Cycle> = chains.collect();
-    let most = LONGEST.min(179 / theta as usize);
-    let is_open =
-        |walk: &[Step]| walk.len() <= most && web.open(walk) > (limit + 1.0) * walk.len() as f64;
-    let open = chains.iter().filter(|cycle| is_open(&cycle.walk));
-    let all: Vec<Cycle> = open.chain(cycles).cloned().collect();
-    let packing = Packing::of(all, motions.len(), is_assumed);
+    let supposed = |assumed_within| {
+        let terms = Terms {
+            assumed: assumed.clone(),
+            assumed_within,
+            ..Terms::new(theta)
+        };
+        let cycles = [&open_cycles(web, &doubts, &terms)[..], directed].concat();
+        let cycles = verified(pairs, &cycles, &terms);
+        let is_free = |step: &Step| !terms.is_assumed(step.0);
+        let are_free = cycles.iter().all(|cycle| cycle.walk.iter().any(is_free));
+        are_free.then(|| Packing::of(cycles, pairs.len(), terms))
+    };
+    let is_some = |found: &Packing| (1..=most).contains(&found.at_least());
+    let packing = match is_database {
+        true => supposed(1000 * theta).filter(is_some)?,
+        false => ODOMETRY
+            .into_iter()
+            .find_map(|within| supposed(within).filter(is_some))?,
+    };
     // Where pairs of neighbours are unchecked, others near by lead past them: this says where to look, and no more.
-    let is_near = |pair: u32| near_by(NEAR)(motions[pair as usize].images);
+    let near_cost = |pair| is_near(pair, NEAR).then_some(1);
     let is_far = |pair: &u32| {
-        let around = web.around(*pair, usize::MAX, is_near);
-        around.is_some_and(|walk| web.open(&walk) > 3.0 * limit)
+        let around = web.around(*pair, u32::MAX, near_cost);
+        around.is_some_and(|walk| web.open(&walk) > 3.0 * f64::from(theta))
     };
     let weighty = packing.pairs().into_iter();
-    let far = weighty.filter(|&pair| !is_near(pair)).filter(is_far);
-    let first = far.max_by_key(|&pair| (motions[pair as usize].inliers, Reverse(pair)));
+    let far = weighty.filter(|&pair| !is_near(pair, NEAR) && is_far(&pair));
+    let first = far.max_by_key(|&pair| (pairs[pair as usize].inliers, Reverse(pair)));
     Some(Neighbours {
         window,
-        assumed,
         packing,
         first,
     })

@@ -70,8 +70,8 @@ fn square<const N: usize>(numbers: &[BigInt; N]) -> BigInt {
     numbers.iter().map(|x| x * x).sum()
 }
 
-/// Condition (C6): the composed rotation turns by more than theta a step.
-pub(super) fn is_open(motions: &[Motion], walk: &[Step], theta: u32) -> bool {
+/// Condition (C6): the composed rotation turns by more than so many degrees.
+pub(super) fn is_open(motions: &[Motion], walk: &[Step], sum: u32) -> bool {
     let steps = || walk.iter().map(|one| step(motions, one));
     // Four factors of 25 bits fit.
     let first: BigInt = if walk.len() <= 4 {
@@ -82,8 +82,7 @@ pub(super) fn is_open(motions: &[Motion], walk: &[Step], theta: u32) -> bool {
         all.map_or(BigInt::ZERO, |[w, ..]| w)
     };
     let squares: BigInt = steps().map(|q| square(&big(q))).product();
-    let length = walk.len() as u32;
-    let bound = (1 << 62) + cosine(length * theta) - (i128::from(length) << 47);
+    let bound = (1 << 62) + cosine(sum) - ((walk.len() as i128) << 47);
     (&first * &first) << 63 < squares * bound
 }
 

@@ -3,7 +3,8 @@
 use super::Step;
 use super::turns::{Turn, angle, conj, times, unit};
 use rayon::prelude::*;
-use std::collections::VecDeque;
+use std::cmp::Reverse;
+use std::collections::{BinaryHeap, HashMap};
 use viewcert_formats::Motion;
 
 /// The pairs at every image.
@@ -122,37 +123,41 @@ impl<'a> Web<'a> {
         again.chain(third)
     }
 
-    /// A closed walk that begins with a pair and goes on over others by the fewest steps, at most so many in all.
+    /// A closed walk that begins with a pair and goes on over others, which cost so much each, or are closed; nearly
+    /// the cheapest, if it costs so much at most.
     pub(super) fn around(
         &self,
         pair: u32,
-        most: usize,
-        is_free: impl Fn(u32) -> bool,
+        most: u32,
+        cost: impl Fn(u32) -> Option<u32>,
     ) -> Option<Vec<Step>> {
         let [target, start] = self.motions[pair as usize].images;
-        let mut from = std::collections::HashMap::from([(start, None)]);
-        let mut open = VecDeque::from([(start, 1)]);
-        while let Some((image, steps)) = open.pop_front() {
-            if steps >= most || from.len() > MET {
+        let mut from = HashMap::from([(start, (0, None))]);
+        let mut open = BinaryHeap::from([Reverse((0, start))]);
+        while let Some(Reverse((spent, image))) = open.pop() {
+            if from.len() > MET {
                 return None;
             }
+            if from[&image].0 < spent {
+                continue;
+            }
             for &(other, step) in self.at(image) {
-                if step.0 == pair || !is_free(step.0) || from.contains_key(&other) {
+                let more = cost(step.0).filter(|_| step.0 != pair);
+                let Some(sum) = more.map(|more| spent + more).filter(|&sum| sum <= most) else {
+                    continue;
+                };
+                if from.get(&other).is_some_and(|&(least, _)| least <= sum) {
                     continue;
                 }
-                from.insert(other, Some((image, step)));
+                from.insert(other, (sum, Some((image, step))));
                 if other == target {
-                    let mut walk = Vec::new();
-                    let mut at = target;
-                    while let Some(Some((before, step))) = from.get(&at) {
-                        walk.push(*step);
-                        at = *before;
-                    }
+                    let back = std::iter::successors(from[&target].1, |(image, _)| from[image].1);
+                    let mut walk: Vec<Step> = back.map(|(_, step)| step).collect();
                     walk.push((pair, true));
                     walk.reverse();
                     return Some(walk);
                 }
-                open.push_back((other, steps + 1));
+                open.push(Reverse((sum, other)));
             }
         }
         None

@@ -177,7 +177,8 @@ impl<'a> Key<'a> {
     /// Increasing along a sequence: by number, or names without one by themselves.
     fn order(&self) -> [(usize, &'a str); 2] {
         match self.numbers {
-            ["", ""] if self.after.is_empty() => [(0, self.whole); 2],
+            // The number 0 has no digits left, and its name has.
+            ["", ""] if !self.whole.contains('0') => [(0, self.whole); 2],
             numbers => numbers.map(|digits| (digits.len(), digits)),
         }
     }

@@ -12,7 +12,7 @@ objects! {
     }
     Pair { ends: [usize; 2], configuration: Option<i64>, q: [i64; 4], t: Option<[i64; 3]> }
     Packing {
-        theta: usize, phi: Option<usize>, assumed: Vec<usize>, denominator: u64,
+        theta: usize, phi: Option<usize>, assumed: Vec<usize>, assumed_within: usize, denominator: u64,
         cycles: Vec<Cycle>, at_least: u64,
     }
     Cycle { walk: Vec<[i64; 2]>, weight: u64, witness: Option<[i64; 3]> }

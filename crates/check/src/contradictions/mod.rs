@@ -18,7 +18,7 @@ use num_bigint::BigInt;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
-/// Operations for a step of a cycle, or a pair; a walk has at most 179.
+/// Operations for a step of a cycle, or a pair.
 const STEP: u64 = 1 << 14;
 
 /// A certificate of contradictions that has been parsed, but not verified.
@@ -48,8 +48,8 @@ pub struct AtLeast {
     pub theta: usize,
     /// Or directions by more than so many.
     pub phi: Option<usize>,
-    /// So many pairs are taken for right.
-    pub assumed: usize,
+    /// So many pairs are taken for right, within so many thousandths of a degree.
+    pub assumed: [usize; 2],
     /// So many of the others are off.
     pub pairs: u64,
 }
@@ -98,7 +98,7 @@ impl ContradictionsCertificate {
         let at_least = document.packings.iter().map(|packing| AtLeast {
             theta: packing.theta,
             phi: packing.phi,
-            assumed: packing.assumed.len(),
+            assumed: [packing.assumed.len(), packing.assumed_within],
             pairs: packing.at_least,
         });
         let at_most = document.upper.iter();
@@ -165,6 +165,8 @@ impl Proof<'_> {
         let pairs = self.document.pairs.len();
         let fine = assumed.is_sorted_by(|a, b| a < b) && assumed.iter().all(|&k| k < pairs);
         ensure!(fine, "`assumed` is no increasing list of pairs");
+        let fine = (1..=1000 * theta).contains(&packing.assumed_within);
+        ensure!(fine, "assumed_within is not from 1 to 1000 theta");
         let is_free = |pair: &usize| assumed.binary_search(pair).is_err();
         let (mut carried, mut sum) = (BTreeMap::<usize, u128>::new(), 0_u128);
         for (k, cycle) in packing.cycles.iter().enumerate() {
@@ -194,35 +196,42 @@ impl Proof<'_> {
     fn cycle(&self, cycle: &Cycle, packing: &Packing) -> Checked<BTreeSet<usize>> {
         let length = cycle.walk.len();
         ensure!(length >= 2, "a walk has two steps at least");
-        let short = length.saturating_mul(packing.theta) < 180;
-        ensure!(short, "L theta is not below 180");
-        self.meter.charge(length as u64 * STEP)?;
+        // Products grow with the steps.
+        self.meter
+            .charge(length as u64 * (STEP + 16 * length as u64))?;
         let (mut used, mut steps, mut ends) = (BTreeSet::new(), Vec::new(), Vec::new());
+        let mut sum = 0;
         for &[k, sense] in &cycle.walk {
             let number = usize::try_from(k).unwrap_or(usize::MAX);
             let pair = self.document.pairs.get(number);
             let pair = pair.ok_or_else(|| format!("there is no pair {k}"))?;
             ensure!(used.insert(number), "pair {k} is taken twice");
             ensure!(matches!(sense, 1 | -1), "{sense} is no sense");
+            sum += match packing.assumed.binary_search(&number) {
+                Ok(_) => packing.assumed_within,
+                Err(_) => 1000 * packing.theta,
+            };
             let (forward, q, [i, j]) = (sense == 1, big(pair.q), pair.ends);
             ends.push(if forward { [i, j] } else { [j, i] });
             steps.push((pair, forward, if forward { q } else { conjugate(q) }));
         }
         let follows = |m: usize| ends[m][1] == ends[(m + 1) % length][0];
         ensure!((0..length).all(follows), "the walk is not closed");
+        let sum = sum.div_ceil(1000);
+        ensure!(sum < 180, "its angles sum to {sum}, which is not below 180");
         match (cycle.witness, packing.phi) {
             (Some(witness), Some(phi)) => self.directions(&steps, witness, [packing.theta, phi])?,
-            _ => self.rotations(&steps, packing.theta)?,
+            _ => self.rotations(&steps, sum)?,
         }
         Ok(used)
     }
 
-    /// (C6): the composed rotation turns by more than L theta.
-    fn rotations(&self, steps: &[Step], theta: usize) -> Checked<()> {
+    /// (C6): the composed rotation turns by more than its pairs may be off together.
+    fn rotations(&self, steps: &[Step], sum: usize) -> Checked<()> {
         let (whole, length) = (composed(steps), steps.len());
-        let bound = ONE + self.cosines[length * theta] - ((length as i128) << 47);
+        let bound = ONE + self.cosines[sum] - ((length as i128) << 47);
         let turns = ((&whole[0] * &whole[0]) << 63_u32) < square(&whole) * bound;
-        ensure!(turns, "it turns by {length} * {theta} degrees or less");
+        ensure!(turns, "it turns by {sum} degrees or less");
         Ok(())
     }
 
@@ -285,7 +294,7 @@ impl VerifiedContradictions {
     /// Whether pairs contradict each other, whatever is assumed.
     pub(crate) fn verdict(&self) -> &'static str {
         let mut proved = self.at_least.iter();
-        match proved.any(|least| least.assumed == 0 && least.pairs > 0) {
+        match proved.any(|least| least.assumed[0] == 0 && least.pairs > 0) {
             true => "contradictions",
             false => "no-contradictions",
         }
@@ -319,8 +328,10 @@ impl fmt::Display for VerifiedContradictions {
             if let Some(phi) = least.phi {
                 write!(f, ", or their directions by more than {phi}")?;
             }
-            if least.assumed > 0 {
-                write!(f, ", if {} others are right", least.assumed)?;
+            let [assumed, within] = least.assumed;
+            if assumed > 0 {
+                let within = within as f64 / 1000.0;
+                write!(f, ", if {assumed} others are right within {within} degrees")?;
             }
             writeln!(f, " (proof), {of}")?;
         }

@@ -9,7 +9,7 @@ use super::{
 };
 use super::{axes, base_lines, positions, raw, rigs, tracks};
 use crate::error::{Fault, Place, Problem};
-use crate::motions::Motions;
+use crate::motions::{Motions, Source};
 use crate::{Matching, NamedGraph, ReadAs, ReadError, ReadOptions, TrackOptions};
 use viewcert::graph::{Graph, Labels};
 
@@ -138,7 +138,7 @@ impl Database {
             for ((a, b), _) in self.taken_by(Pipeline::Incremental) {
                 motions.take([a, b], views.motion(a, b)?);
             }
-            motions.is_database = true;
+            motions.source = Source::Database;
             if hashed {
                 motions.hash = Some(raw::hash(&self.opened.connection)?);
             }

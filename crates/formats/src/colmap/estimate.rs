@@ -115,7 +115,7 @@ fn is_before(pose: &Pose, &[x, y]: &[Vector; 2]) -> bool {
 }
 
 /// The median angle between two rays to a point, in degrees, of the points before both cameras.
-fn median_angle(pose: &Pose, matches: &[[Vector; 2]]) -> Option<f64> {
+pub(super) fn median_angle(pose: &Pose, matches: &[[Vector; 2]]) -> Option<f64> {
     let seen = matches.iter().filter(|two| is_before(pose, two));
     let mut angles: Vec<f64> = seen
         .map(|&[x, y]| {

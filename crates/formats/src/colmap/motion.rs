@@ -4,10 +4,10 @@
 //! ([`Motion`]), or why there is none ([`Unchecked`]). The rotation is that of E, of whose four
 //! decompositions one has more than half of the inliers in front; floats find it, with a margin.
 
-use super::estimate::{Matrix, Vector, cross, decompositions, dot, estimate};
+use super::estimate::{Matrix, Pose, Vector, cross, decompositions, dot, median_angle};
 use super::{DEFAULT_MIN_INLIERS, TwoViews};
 use crate::motions::{Motion, Unchecked, integers};
-use crate::quaternion::quaternion;
+use crate::quaternion::{quaternion, rotation, scaled};
 
 /// Depths below this share of what their terms may add up to have no sure sign in doubles.
 const SURE: f64 = 1e-12;
@@ -37,19 +37,23 @@ pub(super) fn motion(
     }
     let as_float = |q: [i64; 4]| q.map(|x| x as f64);
     let with = |q, vector: Option<Vector>| {
-        let pose = vector.map(|t| (as_float(q), t));
-        let angle = estimate(&TwoViews {
-            pose,
-            ..views.clone()
-        })
-        .angle;
+        let angle = vector.and_then(|translation| {
+            let rotation = rotation(as_float(q));
+            median_angle(
+                &Pose {
+                    rotation,
+                    translation,
+                },
+                &views.matches,
+            )
+        });
         Motion {
             images: views.images,
             inliers: views.inliers,
             configuration: Some(views.config),
             rotation: q,
             vector: vector.and_then(integers),
-            is_wide: vector.is_some() && angle.is_some_and(|angle| angle >= LEAST_ANGLE),
+            is_wide: angle.is_some_and(|angle| angle >= LEAST_ANGLE),
         }
     };
     // Both keypoints of each inlier have to be there.
@@ -106,25 +110,4 @@ fn in_front(q: [f64; 4], t: Vector, matches: &[[Vector; 2]]) -> usize {
             && dot(cross(t, turned), normal) > SURE * of_t * of_x * of_x * of_y
     };
     matches.iter().filter(is_before).count()
-}
-
-/// The matrix of a quaternion times its square, by rows: exact for integers of 24 bits.
-fn scaled([w, x, y, z]: [f64; 4]) -> Matrix {
-    [
-        [
-            w * w + x * x - y * y - z * z,
-            2.0 * (x * y - w * z),
-            2.0 * (x * z + w * y),
-        ],
-        [
-            2.0 * (x * y + w * z),
-            w * w - x * x + y * y - z * z,
-            2.0 * (y * z - w * x),
-        ],
-        [
-            2.0 * (x * z - w * y),
-            2.0 * (y * z + w * x),
-            w * w - x * x - y * y + z * z,
-        ],
-    ]
 }

@@ -18,19 +18,17 @@ use crate::error::Place;
 /// A row: its numbers, and its texts and blobs, each in the order of the columns; NULL is an empty blob.
 pub type RawRow = (Vec<i64>, Vec<Vec<u8>>);
 
-/// A table, its columns with numbers, and those with texts and blobs.
-const TABLES: [(&str, &[&str], &[&str]); 4] = [
+/// The tables and their columns, by the first of which rows are ordered.
+const TABLES: [(&str, &[&str]); 4] = [
     (
         "cameras",
-        &["camera_id", "model", "prior_focal_length"],
-        &["params"],
+        &["camera_id", "model", "prior_focal_length", "params"],
     ),
-    ("images", &["image_id", "camera_id"], &["name"]),
-    ("keypoints", &["image_id", "rows", "cols"], &["data"]),
+    ("images", &["image_id", "camera_id", "name"]),
+    ("keypoints", &["image_id", "rows", "cols", "data"]),
     (
         "two_view_geometries",
-        &["pair_id", "rows", "config"],
-        &["data", "E", "qvec", "tvec"],
+        &["pair_id", "rows", "config", "data", "E", "qvec", "tvec"],
     ),
 ];
 
@@ -85,14 +83,14 @@ pub(super) fn hash(connection: &Connection) -> Result<String, DatabaseError> {
 
 fn read_table(
     connection: &Connection,
-    (table, numbers, blobs): (&str, &[&str], &[&str]),
+    (table, names): (&str, &[&str]),
 ) -> Result<Vec<RawRow>, DatabaseError> {
     let present = columns(connection, table)?;
     if present.is_empty() && table == "keypoints" {
         return Ok(Vec::new());
     }
     let mut chosen = Vec::new();
-    for &name in numbers.iter().chain(blobs) {
+    for &name in names {
         match present.iter().any(|is| is.eq_ignore_ascii_case(name)) {
             true => chosen.push(name),
             // Versions before 3.6 have none of these.
@@ -106,32 +104,27 @@ fn read_table(
     let query = format!(
         "select {} from {table} order by {}",
         chosen.join(", "),
-        numbers[0]
+        names[0]
     );
     let mut statement = connection.prepare(&query)?;
     let mut rows = statement.query([])?;
     let mut found = Vec::new();
     while let Some(row) = rows.next()? {
-        let wrong =
-            |name| DatabaseError::Damaged(format!("`{name}` of `{table}` is of another type"));
-        let mut values: RawRow = Default::default();
-        for (k, &name) in numbers.iter().enumerate() {
+        let (mut numbers, mut blobs) = (Vec::new(), Vec::new());
+        for (k, &name) in names.iter().enumerate() {
+            let is_blob = matches!(name, "params" | "data" | "E" | "qvec" | "tvec");
             match row.get_ref(k)? {
-                ValueRef::Integer(number) => values.0.push(number),
-                _ => return Err(wrong(name)),
+                ValueRef::Integer(number) if !is_blob && name != "name" => numbers.push(number),
+                ValueRef::Text(text) if name == "name" => blobs.push(text.to_vec()),
+                ValueRef::Blob(blob) if is_blob => blobs.push(blob.to_vec()),
+                ValueRef::Null if is_blob => blobs.push(Vec::new()),
+                _ => {
+                    let wrong = format!("`{name}` of `{table}` is of another type");
+                    return Err(DatabaseError::Damaged(wrong));
+                }
             }
         }
-        for (k, &name) in blobs.iter().enumerate() {
-            values
-                .1
-                .push(match (row.get_ref(numbers.len() + k)?, name) {
-                    (ValueRef::Text(text), "name") => text.to_vec(),
-                    (ValueRef::Blob(blob), _) if name != "name" => blob.to_vec(),
-                    (ValueRef::Null, _) if name != "name" => Vec::new(),
-                    _ => return Err(wrong(name)),
-                });
-        }
-        found.push(values);
+        found.push((numbers, blobs));
     }
     Ok(found)
 }

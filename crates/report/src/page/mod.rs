@@ -64,8 +64,8 @@ struct Drawing<'a> {
     degrees: Vec<u32>,
     /// The lines, end after end, if the picture shows all nodes.
     edges: Option<Vec<u32>>,
-    /// How many lines are dashed and dotted.
-    others: [usize; 2],
+    /// How many lines are dashed, dotted and red.
+    others: [usize; 3],
     /// The colours of components, which repeat with another shape.
     colours: [&'static str; COLOURS.len()],
     /// How many components, the first ones, have a mark of their own.
@@ -140,7 +140,7 @@ fn drawing<'a>(report: &'a Report, scene: &'a Scene) -> Drawing<'a> {
         names: &scene.names,
         degrees,
         edges: scene.is_whole().then(|| edges.collect()),
-        others: [Kind::Short, Kind::Suggested].map(|kind| scene.of_kind(kind)),
+        others: [Kind::Short, Kind::Suggested, Kind::Contradicting].map(|kind| scene.of_kind(kind)),
         colours: COLOURS,
         marked: scene.marked(),
         metric: report.scope.intrinsics().map(|found| found.nodes()),

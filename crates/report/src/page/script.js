@@ -400,11 +400,12 @@
     add(glyph(components.length), pairs, counted(pairs, `single ${edgeWord}`));
     add(hingeGlyph(), hinges.length, `${counted(hinges.length, "camera")} in several components`);
     add(emptyGlyph(), isolated.length, `${counted(isolated.length, "camera")} without ${edgeWord}s`);
-    const lineGlyph = (stroke, dashes) =>
+    const lineGlyph = (stroke, dashes = "none") =>
       glyphOf([svg("path", { d: "M-7 0H7", stroke, "stroke-width": 2, "stroke-dasharray": dashes })]);
-    const [short, suggested] = drawing.others;
+    const [short, suggested, contradicting] = drawing.others;
     add(lineGlyph("#5b6470", "4 2"), short, `${counted(short, "pair")} of images are matched, their tracks too short`);
     add(lineGlyph("#0b5cad", "1.5 2"), suggested, `${counted(suggested, "pair")} of images are suggested to be matched`);
+    add(lineGlyph("#d1242f"), contradicting, `${counted(contradicting, "pair")} in contradictions: not all are right`);
   };
 
   // ---- Tables

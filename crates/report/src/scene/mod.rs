@@ -9,6 +9,7 @@ mod layout;
 mod svg;
 
 use crate::{Report, counted};
+use std::borrow::Cow;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, HashMap, VecDeque};
 use viewcert::decide::{Component, Verdict};
@@ -37,6 +38,8 @@ pub(crate) enum Kind {
     Short,
     /// Images that would help if they were matched.
     Suggested,
+    /// Images whose pair is in a contradiction.
+    Contradicting,
 }
 
 /// A line between two nodes, the smaller one first.
@@ -132,21 +135,34 @@ impl Scene {
         }
     }
 
-    /// The graph of a report with what is suggested, and with `matched` pairs beside tracks.
-    pub(crate) fn of(report: &Report, matched: &[(u32, u32)]) -> Self {
+    /// The graph of a report with what is suggested, with `matched` pairs beside tracks, and with the names of pairs
+    /// that contradict each other.
+    pub(crate) fn of(
+        report: &Report,
+        matched: &[(u32, u32)],
+        contradicting: &[[Cow<'_, str>; 2]],
+    ) -> Self {
         let mut scene = Self::new(report.input, report.verdict);
         let suggested = report.advice.suggestions.iter().flatten();
         let suggested = suggested.flat_map(|one| &one.pairs);
         let nodes: HashMap<&str, u32> = (scene.names.iter().map(String::as_str)).zip(0..).collect();
-        let suggested = suggested.filter_map(|[a, b]| Some((*nodes.get(&**a)?, *nodes.get(&**b)?)));
+        let node = |name: &str| nodes.get(name).copied();
+        let suggested = suggested.filter_map(|[a, b]| Some((node(a)?, node(b)?)));
         let suggested: Vec<(u32, u32)> = suggested.collect();
+        let off = contradicting.iter();
+        let off: Vec<(u32, u32)> = off
+            .filter_map(|[a, b]| Some((node(a)?, node(b)?)))
+            .collect();
         let count = scene.edges.len();
-        for (kind, pairs) in [(Kind::Short, matched), (Kind::Suggested, &suggested)] {
+        for (kind, pairs) in [
+            (Kind::Short, matched),
+            (Kind::Suggested, &suggested),
+            (Kind::Contradicting, &off),
+        ] {
             let ordered = pairs.iter().map(|&(a, b)| (a.min(b), a.max(b)));
             let there = &scene.edges[..count];
             let is_new = |ends: &(u32, u32)| {
-                kind == Kind::Suggested
-                    || there.binary_search_by_key(ends, |edge| edge.ends).is_err()
+                kind != Kind::Short || there.binary_search_by_key(ends, |edge| edge.ends).is_err()
             };
             let mut ends: Vec<_> = ordered.filter(is_new).collect();
             ends.sort_unstable();
@@ -211,7 +227,12 @@ impl Scene {
             false => self.sampled(),
         };
         let mut lines = Vec::new();
-        for kind in [Kind::Pair, Kind::Short, Kind::Suggested] {
+        for kind in [
+            Kind::Pair,
+            Kind::Short,
+            Kind::Suggested,
+            Kind::Contradicting,
+        ] {
             let mut some: Vec<Edge> = edges
                 .iter()
                 .filter(|edge| edge.kind == kind)

@@ -107,8 +107,10 @@ impl Scene {
     /// Where so many nodes and lines between them go.
     pub(super) fn placed(&self, nodes: usize, edges: &[Edge]) -> Layout {
         let wider = if nodes <= NAMED { 1.5 } else { 1.0 };
+        // What is drawn on the line of a pair pulls nothing.
         let links: Vec<Link> = edges
             .iter()
+            .filter(|edge| edge.kind != Kind::Contradicting)
             .map(|edge| Link {
                 ends: edge.ends,
                 length: wider * if self.is_grey(edge) { 70.0 } else { 38.0 },
@@ -216,6 +218,7 @@ impl Scene {
                 Kind::Suggested => {
                     "stroke=\"#0b5cad\" class=\"suggested\" stroke-dasharray=\"1.5 3.5\" stroke-linecap=\"round\"".into()
                 }
+                Kind::Contradicting => "stroke=\"#d1242f\" class=\"contradicting\"".into(),
             };
             let _ = writeln!(
                 body,
