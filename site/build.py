@@ -2,23 +2,46 @@
 """Builds the site into target/site: the atlas, its search, the checkers in the page, the documentation.
 
 It works from the disk (open target/site/index.html) and from any web server, and loads nothing from elsewhere. Needs
-`target/debug/verify` and `target/debug/viewcert-lab`, npm (Python for the browser, formulas), for the program in the page Debian's compiler (site/README.md), and,
-for the proved checker, what proofs/build.sh has made. The documentation is made by Sphinx (site/requirements.txt), which --docs-python has; a folder for it is made if not."""
+`target/debug/verify` and `target/debug/viewcert-lab`, npm (Python for the browser, formulas), for the program in the page Debian's compilers (site/README.md), and
+what proofs/build.sh and site/notebooks.py have made. The documentation is made by Sphinx (site/requirements.txt). What is missing ends the build; a second one goes on where the first has ended."""
 
 import argparse
+import base64
+import gzip
 import pathlib
+import re
 import shutil
 import sys
 import time
+import zlib
 
-from atlas import assets, browser, documentation, records, sequences, tutorials
-from atlas.gallery import gallery_page
+from atlas import assets, browser, documentation, records, tutorials
 from atlas.graph_page import graph_page
-from atlas.other_pages import check_page, counted, search_page, start_page, your_page
+from atlas.other_pages import check_page, counted, gallery_page, lost_page, photographs_page, search_page, start_page, your_page
 from atlas.program import ROOT, Program
 
 HERE = pathlib.Path(__file__).parent
+# The most cameras of a row.
 LARGEST = 12
+
+
+def publish(target, address):
+    """What servers and search engines want beside the pages: addresses, and every text compressed."""
+    pages = [path for path in sorted(target.glob("**/*.html")) if path.relative_to(target).parts[0] not in ("rust", "404.html")]
+    if address:
+        for path in pages:
+            text, place = path.read_text(), f"{address}/{path.relative_to(target)}"
+            if 'rel="canonical"' not in text:
+                path.write_text(text.replace("</head>", f'<link rel="canonical" href="{place}">\n<meta property="og:url" content="{place}">\n</head>', 1))
+        lost = target / "404.html"
+        # A server shows it at any address.
+        lost.write_text(re.sub(r'(href|src)="(?![a-z]+:|#)', rf'\1="{address}/', lost.read_text()))
+        write(target / "sitemap.xml", '<?xml version="1.0" encoding="UTF-8"?>\n<urlset xmlns="http://www.sitemaps.org/schemas/sitemap/0.9">\n' + "".join(f"<url><loc>{address}/{path.relative_to(target)}</loc></url>\n" for path in pages) + "</urlset>\n")
+        write(target / "robots.txt", f"User-agent: *\nSitemap: {address}/sitemap.xml\n")
+    for path in target.rglob("*"):
+        packed = path.with_name(path.name + ".gz")
+        if "data" not in path.relative_to(target).parts and path.suffix in (".html", ".js", ".css", ".svg", ".json", ".xml") and (not packed.exists() or packed.stat().st_mtime < path.stat().st_mtime):
+            packed.write_bytes(gzip.compress(path.read_bytes(), 9, mtime=0))
 
 
 def write(path, text):
@@ -32,14 +55,14 @@ def step(what, begin):
     print(f"{time.monotonic() - begin:7.1f} s  {what}", flush=True)
 
 
-def atlas(program, laboratory, target, largest, begin):
+def atlas(program, laboratory, target, begin):
     """All pages about graphs, and the rows of the search."""
     of_catalog = records.catalog(program)
     step(f"{len(of_catalog)} graphs of the catalog", begin)
     beside = records.famous(program)
     records.complete(program, laboratory, of_catalog + beside)
     step("proofs, pictures, witnesses", begin)
-    rows = records.rows(program, of_catalog + beside, largest)
+    rows = records.rows(program, of_catalog + beside, LARGEST)
     step(f"{len(rows)} rows", begin)
     text = "\n".join("\t".join(map(str, row)) for row in rows)
     assets.script(target / "static/rows.js", ATLAS={"columns": records.COLUMNS, "text": text})
@@ -52,7 +75,7 @@ def atlas(program, laboratory, target, largest, begin):
     for record in beside:
         write(target / f"graphs/{record.slug}.html", graph_page(record, siblings, None, None))
     step("pages of graphs", begin)
-    write(target / "gallery.html", gallery_page(program, of_catalog, beside))
+    write(target / "gallery.html", gallery_page(program))
     step("gallery", begin)
     titled = [record for record in of_catalog if record.title]
     return titled + beside
@@ -64,9 +87,7 @@ def main():
     parser.add_argument("--lab", default=ROOT / "target/debug/viewcert-lab", help="the laboratory's program")
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "target/site")
     parser.add_argument("--cache", type=pathlib.Path, default=ROOT / "target/site-cache")
-    parser.add_argument("--docs-python", help="a Python that has Sphinx, MyST and furo")
-    parser.add_argument("--largest", type=int, default=LARGEST, choices=(10, 11, 12), help="the most cameras of a row")
-    parser.add_argument("--require", action="store_true", help="fail where a checker or the documentation cannot be made")
+    parser.add_argument("--address", default="", help="where the site will stand, as https://example.org/atlas: for canonical links and the map of the site")
     asked = parser.parse_args()
     begin = time.monotonic()
     asked.out.mkdir(parents=True, exist_ok=True)
@@ -75,26 +96,31 @@ def main():
         static.mkdir(exist_ok=True)
         shutil.copy(source, static / source.name)
     assets.script(static / "terms.js", TERMS=assets.terms())
-    there = assets.checkers(static, asked.cache, ROOT / "proofs/build/viewcert-proved.html")
-    for name in {"second", "proved"} - set(there):
-        print(f"SKIPPED: the {name} checker is not in the site", file=sys.stderr)
+    browser.needed()
+    assets.checkers(static, asked.cache, ROOT / "proofs/build/viewcert-proved.html")
     step("checkers", begin)
-    scripts = browser.libraries(static, asked.cache)
+    browser.libraries(static, asked.cache)
     browser.writer(static)
-    scripts = scripts and browser.program(static)
+    browser.program(static)
     step("the program for the page", begin)
-    famous = atlas(Program(asked.verify, asked.cache), Program(asked.lab, asked.cache), asked.out, asked.largest, begin)
-    counts = counted((ROOT / "certificates/counts.tsv").read_text(), asked.largest)
-    write(asked.out / "index.html", start_page(famous, counts, asked.largest, sequences.digests()))
-    write(asked.out / "search.html", search_page())
+    famous = atlas(Program(asked.verify, asked.cache), Program(asked.lab, asked.cache), asked.out, begin)
+    counts = counted((ROOT / "certificates/counts.tsv").read_text(), LARGEST)
+    write(asked.out / "index.html", start_page(famous, counts, LARGEST))
+    write(asked.out / "search.html", search_page(famous))
+    samples = assets.samples(asked.cache, documentation.interpreter(asked.cache))
+    assets.script(static / "samples.js", SAMPLES={name: base64.b64encode(zlib.compress(content)).decode() for name, (_, content) in samples.items()})
+    write(asked.out / "photographs.html", photographs_page(samples))
     write(asked.out / "graph.html", your_page())
     write(asked.out / "check.html", check_page())
-    sequences.publish(asked.out / "data")
+    write(asked.out / "404.html", lost_page())
+    assets.data_package(asked.out / "data")
     notebooks = tutorials.publish(asked.out / "notebooks")
-    made = documentation.build(asked.out / "docs", asked.cache, asked.docs_python, notebooks)
+    documentation.build(asked.out / "docs", asked.cache, notebooks)
     step("documentation", begin)
-    if asked.require and (len(there) < 2 or not scripts or not made or sum(map(len, notebooks.values())) < len(tutorials.NOTEBOOKS)):
-        sys.exit("not everything could be made")
+    publish(asked.out, asked.address.rstrip("/"))
+    step("compressed files", begin)
+    if sum(map(len, notebooks.values())) < len(tutorials.NOTEBOOKS):
+        sys.exit("not everything could be made: what is missing stands above")
 
 
 if __name__ == "__main__":

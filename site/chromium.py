@@ -1,6 +1,5 @@
 """Chromium without a window, driven by its own protocol through a pipe: nothing but the standard library."""
 
-import base64
 import json
 import os
 import subprocess
@@ -105,19 +104,22 @@ class Chromium:
     def wait(self, script, seconds=120):
         """Waits until an expression is true."""
         end = time.monotonic() + seconds
-        while not (value := self.run(script)):
+        while not (value := self._told(script)):
             if time.monotonic() > end:
                 raise TimeoutError(f"{script}: not within {seconds} s")
             time.sleep(0.05)
         return value
 
+    def _told(self, script):
+        try:
+            return self.run(script)
+        except RuntimeError as error:
+            # Another page is being opened.
+            if "navigated" not in str(error):
+                raise
+
     def width(self, width, height=900):
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=width < 600)
-
-    def picture(self, path, whole=False):
-        answer = self.call("Page.captureScreenshot", format="png", captureBeyondViewport=whole)
-        with open(path, "wb") as file:
-            file.write(base64.b64decode(answer["data"]))
 
     def close(self):
         try:

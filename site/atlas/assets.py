@@ -1,12 +1,15 @@
 """Scripts of the site that are made: the checkers, the words of the glossary, the rows of the search."""
 
 import base64
+import contextlib
 import hashlib
 import json
 import pathlib
 import re
 import shutil
+import sqlite3
 import subprocess
+import tempfile
 
 from .program import ROOT
 
@@ -14,19 +17,23 @@ from .program import ROOT
 PYODIDE = ("pyodide", "314.0.7")
 KATEX = ("katex", "0.19.1")
 
+# COLMAP's number of a pair of images is that of the first times this, and that of the second.
+PAIRS = 2147483647
+
 # What the second checker needs: all of its modules but tests and tools.
 TOOLS = {"agree.py", "conditions.py", "grow.py", "make.py", "path.py", "frames_by_force.py"}
 
 
 def package(name, version, cache):
-    """The folder of a package of npm, unpacked; None where it cannot be had."""
+    """The folder of a package of npm, unpacked."""
     folder = pathlib.Path(cache) / f"{name}-{version}"
     if not (folder / "package").exists():
         folder.mkdir(parents=True, exist_ok=True)
-        done = subprocess.run(["npm", "pack", "--silent", f"{name}@{version}"], cwd=folder, capture_output=True, text=True)
-        if done.returncode:
-            return None
-        subprocess.run(["tar", "-xzf", next(folder.glob("*.tgz")), "-C", folder], check=True)
+        subprocess.run(["npm", "pack", "--silent", f"{name}@{version}"], cwd=folder, check=True, stdout=subprocess.DEVNULL)
+        # Whole or not at all: the next build goes on from here.
+        with tempfile.TemporaryDirectory(dir=folder) as half:
+            subprocess.run(["tar", "-xzf", next(folder.glob("*.tgz")), "-C", half], check=True)
+            (pathlib.Path(half) / "package").rename(folder / "package")
     return folder / "package"
 
 
@@ -37,26 +44,34 @@ def script(path, **values):
 
 
 def checkers(static, cache, page):
-    """The second checker with Python, and the proved one out of its page. Says which are there."""
+    """The second checker with Python, and the proved one out of its page."""
     sources = {p.name: p.read_text() for p in sorted((ROOT / "crates/check/second").glob("*.py")) if p.name not in TOOLS and not p.name.startswith("test_")}
     script(static / "checker.js", CHECKER=sources)
-    there = []
-    folder = package(*PYODIDE, cache)
-    if folder:
-        target = static / "pyodide"
-        target.mkdir(parents=True, exist_ok=True)
-        shutil.copy(folder / "pyodide.js", target / "loader.js")
-        encoded = {name: base64.b64encode((folder / name).read_bytes()).decode() for name in ("pyodide.asm.wasm", "python_stdlib.zip")}
-        script(target / "module.js", PYODIDE_MODULE=(folder / "pyodide.asm.mjs").read_text(), PYODIDE_LOCK=json.loads((folder / "pyodide-lock.json").read_text()) | {"packages": {}})
-        script(target / "wasm.js", PYODIDE_WASM=encoded["pyodide.asm.wasm"])
-        script(target / "library.js", PYODIDE_LIBRARY=encoded["python_stdlib.zip"])
-        there.append("second")
-    if page.exists():
-        text = page.read_text()
-        found = re.search(r'<script type="text/plain" id="program">(.*?)</script>', text, re.S)
-        script(static / "proved.js", PROVED=found.group(1))
-        there.append("proved")
-    return there
+    folder, target = package(*PYODIDE, cache), static / "pyodide"
+    target.mkdir(parents=True, exist_ok=True)
+    shutil.copy(folder / "pyodide.js", target / "loader.js")
+    encoded = {name: base64.b64encode((folder / name).read_bytes()).decode() for name in ("pyodide.asm.wasm", "python_stdlib.zip")}
+    script(target / "module.js", PYODIDE_MODULE=(folder / "pyodide.asm.mjs").read_text(), PYODIDE_LOCK=json.loads((folder / "pyodide-lock.json").read_text()) | {"packages": {}})
+    script(target / "wasm.js", PYODIDE_WASM=encoded["pyodide.asm.wasm"])
+    script(target / "library.js", PYODIDE_LIBRARY=encoded["python_stdlib.zip"])
+    if not page.exists():
+        raise SystemExit(f"{page} is not there: proofs/build.sh makes the proved checker")
+    found = re.search(r'<script type="text/plain" id="program">(.*?)</script>', page.read_text(), re.S)
+    script(static / "proved.js", PROVED=found.group(1))
+
+
+def samples(cache, python):
+    """Inputs to try the program with, by the names of their files: what each is, and its bytes."""
+    walk = pathlib.Path(cache) / "walk.db"
+    subprocess.run([python, ROOT / "benches/database.py", walk, "--images", "40", "--points", "1200"], check=True, stdout=subprocess.DEVNULL)
+    gap = walk.with_name("gap.db")
+    shutil.copy(walk, gap)
+    with contextlib.closing(sqlite3.connect(gap)) as database:
+        for table in ("matches", "two_view_geometries"):
+            database.execute(f"delete from {table} where pair_id / {PAIRS} <= 20 and pair_id % {PAIRS} > 20 and pair_id <> {20 * PAIRS + 21}")
+        database.commit()
+    lists = {name: (words, (ROOT / f"examples/{name}").read_bytes()) for name, words in (("courtyard.txt", "a list: a courtyard"), ("courtyard-gaps.txt", "a list with gaps"))}
+    return {"walk.db": ("a database: a walk", walk.read_bytes()), "gap.db": ("a database that one pair holds together", gap.read_bytes())} | lists
 
 
 def plain(markdown):
@@ -79,9 +94,11 @@ def terms():
     return found
 
 
-def data_package(target, files):
+def data_package(target):
     """The published folder and the licences, with a manifest of SHA-256 sums: a Data Package of the Frictionless standard."""
     target.mkdir(parents=True, exist_ok=True)
+    files = sorted(path for path in (ROOT / "certificates").iterdir() if path.is_file())
+    files += [ROOT / name for name in ("LICENSE-MIT", "LICENSE-APACHE", "CITATION.cff", ".zenodo.json")]
     resources = []
     for source in files:
         shutil.copy(source, target / source.name)

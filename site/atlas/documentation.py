@@ -32,18 +32,13 @@ ORDER = {
 }
 
 
-def interpreter(cache, given):
-    """A Python that has what site/requirements.txt names; None where it cannot be had."""
-    if given:
-        return pathlib.Path(given)
+def interpreter(cache):
+    """A Python that has what site/requirements.txt names."""
     folder = cache / "docs-python"
     python = folder / "bin/python"
-    if not python.exists():
-        venv.create(folder, with_pip=True)
-    done = subprocess.run([python, "-m", "pip", "install", "--quiet", "-r", HERE / "requirements.txt"], capture_output=True, text=True)
-    if done.returncode:
-        print(f"SKIPPED: the documentation: {done.stderr.strip()[-300:]}", file=sys.stderr)
-        return None
+    if not (folder / "bin/pip").exists():
+        venv.create(folder, with_pip=True, clear=True)
+    subprocess.run([python, "-m", "pip", "install", "--quiet", "-r", HERE / "requirements.txt"], check=True)
     return python
 
 
@@ -86,23 +81,19 @@ def api():
 
 
 def rust(target):
-    """What rustdoc makes of the two libraries that others build on, without what they depend on. False where there is no cargo."""
+    """What rustdoc makes of the two libraries that others build on, without what they depend on."""
     folder = ROOT / "target/site-rust"
     words = ["cargo", "doc", "--quiet", "--no-deps", "--target-dir", folder, *(word for name in CRATES for word in ("-p", name))]
-    if not shutil.which("cargo"):
-        print("SKIPPED: the documentation of the libraries: there is no cargo", file=sys.stderr)
-        return False
     subprocess.run(words, cwd=ROOT, check=True)
     shutil.copytree(folder / "doc", target, dirs_exist_ok=True)
-    return True
 
 
-def rust_page(made):
+def rust_page():
     """Where what rustdoc made is, with the first sentence of each crate."""
     text = "# Rust, crate by crate\n\n"
     for name, path in CRATES.items():
         about = re.search(r'^description = "(.*)"', (ROOT / path / "Cargo.toml").read_text(), re.M)[1]
-        title = f'<a href="../rust/{name.replace("-", "_")}/index.html">{name}</a>' if made else f"`{name}`"
+        title = f'<a href="../rust/{name.replace("-", "_")}/index.html">{name}</a>'
         text += f"* {title}: {about}.\n"
     return text + "\nWhich crate may import which others, and what each is for, is on the page of [the house](house.md).\n"
 
@@ -160,7 +151,7 @@ class Sources:
             text = statements.START.sub(lambda m: f"({statements.anchor(m[2])})=\n{m[0]}", text)
         return text
 
-    def write(self, folder, made):
+    def write(self, folder):
         for source, name in self.pages.items():
             text = self.text(source)
             if name == "index.md":
@@ -170,25 +161,23 @@ class Sources:
             put(folder / name, text)
         put(folder / "statements.md", statements.markdown())
         put(folder / "api.md", api())
-        put(folder / "rust.md", rust_page(made))
+        put(folder / "rust.md", rust_page())
         shutil.copytree(ROOT / "docs/pictures", folder / "pictures", dirs_exist_ok=True)
 
 
-def build(target, cache, given, notebooks):
-    """Builds the pages into a folder; `notebooks` are those of some pages, by page. False where the generator or the formulas cannot be had."""
+def build(target, cache, notebooks):
+    """Builds the pages into a folder; `notebooks` are those of some pages, by page."""
     cache = pathlib.Path(cache).resolve()
-    python, katex = interpreter(cache, given), assets.package(*assets.KATEX, cache)
-    if not python or not katex:
-        return False
+    python, katex = interpreter(cache), assets.package(*assets.KATEX, cache)
     folder = cache / "docs"
     folder.mkdir(parents=True, exist_ok=True)
-    Sources(notebooks).write(folder, rust(pathlib.Path(target).parent / "rust"))
+    rust(pathlib.Path(target).parent / "rust")
+    Sources(notebooks).write(folder)
     for name in ("conf.py", "formulas.js", "docs.css", "docs.js"):
         put(folder / name, (HERE / "docs" / name).read_text())
-    put(folder / "place.json", json.dumps({"katex": str(katex / "dist/katex.js"), "terms": assets.terms(), "package": str(PACKAGE)}))
+    put(folder / "place.json", json.dumps({"katex": str(katex / "dist/katex.js"), "package": str(PACKAGE)}))
     words = [python, "-m", "sphinx", "-b", "html", "-q", "-j", "2", "-d", cache / "doctrees", folder, target]
     done = subprocess.run(words, capture_output=True, text=True)
     print(done.stderr, file=sys.stderr, end="")
     if done.returncode:
         raise SystemExit("the documentation could not be built")
-    return True

@@ -3,11 +3,11 @@
 import json
 from html import escape
 
-from .graphs import kernel, kernel_form
+from .graphs import connectivity, kernel, kernel_form
 from .pictures import inline, places
-from .record import solutions_word
-from .story import Story
-from .words import VERDICTS, badge, facts, page, said, term
+from .record import Record, solutions_word
+from .story import Story, listed
+from .words import VERDICTS, badge, dataset, facts, page, said, term
 
 MODELS = [("affine", "affine cameras"), ("projective", "uncalibrated cameras"), ("calibrated", "known intrinsics")]
 
@@ -60,11 +60,14 @@ def facts_of(record):
     ]
     if name:
         girth = name["girth"] or "no cycle"
+        fewest, widest = connectivity(nodes, record.pairs)
         found += [
             ("degrees", ", ".join(map(str, name["degrees"]))),
             ("girth", girth, "label:/girth", name["girth"]),
             ("automorphisms", name["automorphisms"], "label:/automorphisms", name["automorphisms"]),
             ("triangles", name["triangles"], "label:/triangles", name["triangles"]),
+            ("connectivity", fewest),
+            ("diameter", "not connected" if widest is None else widest),
             ("graph6, greatest", f"<code>{escape(name['graph6'])}</code>", "label:/graph6", name["graph6"]),
         ]
     found.append(("graph6, as numbered here", f"<code>{escape(record.graph6)}</code>"))
@@ -103,19 +106,17 @@ def story_section(record):
     if not record.certificate or len(places(record.picture)) > 16:
         return ""
     steps = Story(json.loads(record.certificate), record.pairs, places(record.picture)).tell()
-    items = "".join(f"<li><figure>{picture}<figcaption>{escape(words)}</figcaption></figure></li>" for words, picture in steps)
-    return f'<section><h2>Contraction, step by step</h2><ol class="story">{items}</ol></section>'
+    return f'<section><h2>Contraction, step by step</h2>{listed(steps)}</section>'
 
 
 def solutions_section(record):
     if not record.witness:
         return ""
-    seen = "; ".join(f"{oriented} of {real} real solutions are oriented" for real, oriented in record.oriented)
+    seen = "".join(f"<p>At some cameras {real} of the solutions are real, and {oriented or 'none'} of these {'is' if oriented == 1 else 'are'} oriented: every point lies in front of the cameras that see it.</p>" for real, oriented in record.oriented)
     scene = ""
     if record.second_scene:
         picture = record.second_scene.replace("<svg ", '<svg class="scene" role="img" aria-label="Two scenes with the same images" ', 1)
         scene = f"<figure class=wide tabindex=0>{picture}<figcaption>A real second scene, found at integer centres and exact there: both have the same images on every pair.</figcaption></figure>"
-    seen = f"<p>Near cameras that were found: {seen}.</p>" if seen else ""
     return f"""<section><h2>More than one solution</h2>
 <p>Two sets of cameras with the same fundamental matrices on all pairs, modulo a prime: <button type="button" data-save="witness">save the witness</button> (<code>verify witness</code>).</p>
 {seen}{scene}{script_json("witness", record.witness)}</section>"""
@@ -130,24 +131,29 @@ def checks_section():
 <div id="answers" aria-live="polite"></div></section>"""
 
 
+def data_section(record):
+    """The graph as files, and how to cite it."""
+    nodes, pairs = record.size
+    label, report = record.label or record.slug, record.report
+    joined = {tuple(sorted(pair)) for pair in record.pairs}
+    rows = "\n".join(" ".join("01"[(min(i, j), max(i, j)) in joined] for j in range(nodes)) for i in range(nodes)) if nodes <= 60 else ""
+    value = {"label": record.label, "graph6": record.graph6, "cameras": nodes, "pairs": record.pairs, "verdict": report["verdict"], "strength": report["strength"], "rank": report["rank"], "solutions": report.get("solutions"), "models": {line["model"]: line["verdict"] for line in record.models["models"]}, "invariants": record.name and {key: record.name[key] for key in ("degrees", "girth", "automorphisms", "triangles")}}
+    entry = f"@misc{{viewcert:{label},\n  title = {{Viewing graph {label}: {nodes} cameras, {pairs} pairs, {VERDICTS[report['verdict']][0]}}},\n  author = {{{{The viewcert developers}}}},\n  note = {{The atlas of viewing graphs}}\n}}\n"
+    kept = [("pairs", "Pairs"), *([("adjacency", "Adjacency matrix")] if rows else []), ("graph", "JSON"), ("bibtex", "BibTeX"), ("picture", "Picture")]
+    buttons = " ".join(f'<button type="button" data-save="{name}">{words}</button>' for name, words in kept)
+    shown = f'<details><summary>Pairs, and the adjacency matrix</summary><div class="two"><pre>{" ".join(f"{i}-{j}" for i, j in record.pairs)}</pre><pre>{rows}</pre></div></details>' if rows else ""
+    return f'<p class="buttons">Save: {buttons}</p>{shown}{script_json("adjacency", rows)}{script_json("graph", value)}{script_json("bibtex", entry)}'
+
+
 def linked_data(record):
     label = record.label or record.slug
-    value = {
-        "@context": "https://schema.org",
-        "@type": "Dataset",
+    return dataset({
         "name": f"Viewing graph {label}",
         "identifier": label,
         "description": f"{record.size[0]} cameras, {record.size[1]} pairs: {VERDICTS[record.report['verdict']][0]}, with a certificate.",
-        "license": ["https://spdx.org/licenses/MIT", "https://spdx.org/licenses/Apache-2.0"],
         "isPartOf": {"@type": "Dataset", "name": "The atlas of viewing graphs"},
-        "variableMeasured": [
-            {"@type": "PropertyValue", "name": "graph6", "value": record.graph6},
-            {"@type": "PropertyValue", "name": "rank", "value": record.report["rank"]},
-            {"@type": "PropertyValue", "name": "solutions", "value": solutions_fact(record.report)},
-        ],
-        "creator": {"@type": "Organization", "name": "The viewcert developers"},
-    }
-    return f'<script type="application/ld+json">{json.dumps(value).replace("<", chr(92) + "u003c")}</script>\n'
+        "variableMeasured": [{"@type": "PropertyValue", "name": name, "value": value} for name, value in (("graph6", record.graph6), ("rank", record.report["rank"]), ("solutions", solutions_fact(record.report)))],
+    })
 
 
 def article(record, siblings, up):
@@ -173,9 +179,19 @@ def article(record, siblings, up):
 <section><h2>Every camera model</h2>{models_table(record)}</section>
 {solutions_section(record)}
 <section><h2>Where it comes from</h2>{kernel_section(record, siblings, up)}
-<p>To cite this graph: <code>{escape(record.label or record.slug)}</code>{", a label that stays and gives the graph back" if record.label else ""} (<a href="{up}docs/catalog.html#labels">what labels are</a>). To decide it yourself: <code>echo '{escape(record.graph6)}' | verify -</code>; pairs: <button type="button" data-save="pairs">save as a list</button></p></section>
+<p>To cite this graph: <code>{escape(record.label or record.slug)}</code>{", a label that stays and gives the graph back" if record.label else ""} (<a href="{up}docs/catalog.html#labels">what labels are</a>). To decide it yourself: <code>echo '{escape(record.graph6)}' | verify -</code>.</p>{data_section(record)}</section>
 {script_json("certificate", record.certificate)}{script_json("proof", record.proof)}{script_json("pairs", text_of_pairs)}
 """
+
+
+def written(graph6, said, siblings, listed):
+    """The same of a graph of the reader's, in the browser, of what each run of `verify` has printed: texts by name, where a run that gave nothing is \"\"."""
+    read = lambda name: json.loads(said[name]) if said.get(name) else None
+    record = Record(graph6, read("report"), read("models"), read("label"), listed=listed)
+    record.certificate, record.proof = said.get("certificate", ""), said.get("proof", "")
+    record.picture, record.witness = said["picture"], said.get("witness", "")
+    record.slug = record.label or graph6
+    return article(record, siblings, "")
 
 
 def graph_page(record, siblings, before, after):
@@ -184,6 +200,6 @@ def graph_page(record, siblings, before, after):
     near = [f'<a rel={rel} href="{other.slug}.html">{arrow}</a>' for rel, other, arrow in (("prev", before, "← before"), ("next", after, "next →")) if other]
     where = f'<a href="../search.html#nodes={nodes}">{nodes} cameras</a>' if record.name else f"{nodes} cameras"
     body = f'<p class="trail"><a href="../index.html">Atlas</a> › {where} <span class="near">{" ".join(near)}</span></p>\n{heading(record)}\n{article(record, siblings, "../")}'
-    about = f"{nodes} cameras, {pairs} pairs: {word}; picture, certificate, and a check in your browser"
+    about = f"Viewing graph {record.slug}: {nodes} cameras, {pairs} pairs, {word}, solutions: {solutions_fact(record.report)}. Picture, certificate, and a check in your browser."
     scripts = ("terms.js", "site.js", "check.js")
     return page(record.title or record.label or record.slug, body, depth=1, scripts=scripts, data=linked_data(record), about=about)

@@ -1,4 +1,6 @@
-"""Small graphs in plain Python: graph6, the greatest relabelling of a multigraph, kernels."""
+"""Small graphs in plain Python: graph6, the greatest relabelling of a multigraph, kernels, connectivity."""
+
+import itertools
 
 
 def of_graph6(line):
@@ -33,6 +35,22 @@ def greatest(nodes, weights):
         orders = following
         columns.append(best)
     return tuple(columns)
+
+
+def connectivity(nodes, pairs):
+    """The fewest cameras without which the others hang no longer together, or one is left; and the greatest distance, None if there is none."""
+    near = [{b if a == v else a for a, b in pairs if v in (a, b)} for v in range(nodes)]
+
+    def depth(start, without):
+        reached, front, steps = {start}, {start}, 0
+        while front := set().union(*(near[v] for v in front)) - reached - without:
+            reached, steps = reached | front, steps + 1
+        return steps if len(reached) == nodes - len(without) else None
+
+    depths = [depth(v, set()) for v in range(nodes)]
+    cut = lambda some: depth(next(v for v in range(nodes) if v not in some), set(some)) is None
+    fewest = next((k for k in range(nodes - 1) if any(map(cut, itertools.combinations(range(nodes), k)))), nodes - 1)
+    return fewest, None if None in depths else max(depths)
 
 
 def kernel(nodes, pairs):

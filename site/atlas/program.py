@@ -57,36 +57,22 @@ class Program:
             raise SystemExit(f"verify {' '.join(words)}: {len(found)} answers for {len(lines)} graphs")
         return found
 
-    def file(self, words, text, codes=(0, 1)):
-        """What a run writes to the file that stands in its words as FILE; b"" if it writes none."""
+    def made(self, words, files, results):
+        """What a run writes to the first file of `results`, beside files with these texts; b"" if it writes none."""
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            for name, text in files.items():
+                (folder / name).write_text(text)
+            done = subprocess.run([self.path, *words], cwd=folder, capture_output=True)
+            if done.returncode not in (0, 1):
+                raise SystemExit(f"{self.path.name} {' '.join(words)}: exit code {done.returncode}: {done.stderr.decode()}")
+            return next(((folder / name).read_bytes() for name in results if (folder / name).exists()), b"")
 
-        def make():
-            with tempfile.TemporaryDirectory() as folder:
-                path = pathlib.Path(folder) / "graph"
-                path.write_text(text)
-                named = {"GRAPH": "graph", "FILE": "file", "PICTURE": "file.svg"}
-                done = subprocess.run([self.path, *[named.get(w, w) for w in words]], cwd=folder, capture_output=True)
-                if done.returncode not in codes:
-                    raise SystemExit(f"verify {' '.join(words)}: exit code {done.returncode}: {done.stderr.decode()}")
-                made = [path.with_name(name) for name in ("file", "file.svg") if path.with_name(name).exists()]
-                return made[0].read_bytes() if made else b""
+    def file(self, words, text):
+        """What a run writes to the file that stands in its words as FILE."""
+        named = {"GRAPH": "graph", "FILE": "file", "PICTURE": "file.svg"}
+        run = [named.get(w, w) for w in words]
+        return self.kept(("file", words, text), lambda: self.made(run, {"graph": text}, ("file", "file.svg"))).decode()
 
-        return self.kept(("file", words, text), make).decode()
-
-    def at_places(self, words, pairs, cameras):
-        """The picture that a run makes of a graph at given cameras: words GRAPH, PICTURE and CAMERAS stand for the files."""
-
-        def make():
-            with tempfile.TemporaryDirectory() as folder:
-                named = {"GRAPH": "pairs.txt", "CAMERAS": "cameras.txt", "PICTURE": "picture.svg"}
-                (pathlib.Path(folder) / "pairs.txt").write_text(pairs)
-                (pathlib.Path(folder) / "cameras.txt").write_text(cameras)
-                done = subprocess.run([self.path, *[named.get(w, w) for w in words]], cwd=folder, capture_output=True)
-                if done.returncode not in (0, 1):
-                    raise SystemExit(f"verify {' '.join(words)}: exit code {done.returncode}: {done.stderr.decode()}")
-                return (pathlib.Path(folder) / "picture.svg").read_bytes()
-
-        return self.kept(("at places", words, pairs, cameras), make).decode()
-
-    def files(self, words, texts, codes=(0, 1)):
-        return list(self.workers.map(lambda text: self.file(words, text, codes), texts))
+    def files(self, words, texts):
+        return list(self.workers.map(lambda text: self.file(words, text), texts))

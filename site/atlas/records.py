@@ -5,19 +5,20 @@ import json
 import pathlib
 
 from . import graphs
-from .graphs import kernel_form, of_graph6, to_graph6
+from .graphs import kernel_form, of_graph6
 from .program import ROOT
 from .record import Record, solutions_word
 
 CERTIFICATES = ROOT / "certificates"
 
-# Graphs of the literature and of the documentation, by where they stand: pages beside those of the catalog.
+# Graphs of the literature and of the documentation, by their files or lines of graph6: pages beside those of the catalog.
 FAMOUS = [
     ("house", "The house", "examples/house.txt", "A triangle on a square: not finite solvable, the example of the README."),
     ("psi", "Psi", "examples/psi.txt", "Four pairs that always move as one and yet are four components (theory, Example 6.2)."),
     ("courtyard", "Courtyard", "examples/courtyard.txt", "A walk around a courtyard, 28 photographs: solvable by contraction."),
     ("courtyard-gaps", "Courtyard with gaps", "examples/courtyard-gaps.txt", "The same walk with a single pair left at every corner: eight parts."),
-    ("heawood", "Heawood's graph", None, "Rigid without a body: no triangle and no square (theory, Example 12.6)."),
+    ("petersen", "Petersen's graph", "IheA@GUAo", "Three-regular, any two cameras at most two pairs apart: solvable without a triangle or a square."),
+    ("heawood", "Heawood's graph", "MhEGHC@AI?_PC@_G_", "Rigid without a body: no triangle and no square (theory, Example 12.6)."),
 ]
 
 # Names of graphs of the catalog, by label.
@@ -26,12 +27,6 @@ NAMES = {
     "vg.4.5.1": "Two triangles with a common side",
     "vg.5.6.55": "K2,3",
 }
-
-
-def heawood():
-    """Heawood's graph, from its LCF notation [5, -5]^7."""
-    pairs = [(v, (v + 1) % 14) for v in range(14)] + [(v, (v + 5) % 14) for v in range(0, 14, 2)]
-    return to_graph6(14, pairs)
 
 
 def published(nodes):
@@ -69,7 +64,7 @@ def famous(program):
     """The records of the famous graphs that the catalog has not."""
     records = []
     for slug, title, path, about in FAMOUS:
-        text = (ROOT / path).read_text() if path else heawood() + "\n"
+        text = (ROOT / path).read_text() if "/" in path else path + "\n"
         line = program.run(["convert", "--to", "graph6", "-"], text).strip()
         full = json.loads(program.run(["--json", "--components", "-"], text))
         models = json.loads(program.run(["models", "--json", "-"], text))
@@ -84,14 +79,14 @@ def famous(program):
 def complete(program, laboratory, records):
     """Adds proofs, pictures and witnesses, which take a run of the program each."""
     texts = [record.graph6 + "\n" for record in records]
-    proofs = program.files(["GRAPH", "--proof", "FILE"], texts, codes=(0, 1))
+    proofs = program.files(["GRAPH", "--proof", "FILE"], texts)
     pictures = program.files(["draw", "GRAPH", "PICTURE"], texts)
     for record, proof, picture in zip(records, proofs, pictures):
         record.proof, record.picture = proof, picture
     several = [r for r in records if (r.report.get("solutions") or {}).get("at_least", 1) > 1]
     texts = [record.graph6 + "\n" for record in several]
     # Exit code 1: no second solution was found.
-    witnesses = program.files(["witness", "GRAPH", "FILE"], texts, codes=(0, 1))
+    witnesses = program.files(["witness", "GRAPH", "FILE"], texts)
     scenes = laboratory.run(["scenes", "-"], "".join(texts)).splitlines()
     for record, witness, scene in zip(several, witnesses, map(json.loads, scenes), strict=True):
         record.witness, record.oriented, record.second_scene = witness, scene["numbers"], scene["picture"] or ""
@@ -144,7 +139,7 @@ def minimal(program, known):
 def rows(program, records, largest):
     """All rows: the pages of the catalog first, then minimal graphs with more pairs, then the lists."""
     with_label = [r for r in records if r.name]
-    found = [row(r.name, r.graph6, solutions_word(r.report["solutions"]) if r.report.get("solutions") else "", r.models, r.slug) for r in with_label]
+    found = [row(r.name, r.graph6, solutions_word(r.report["solutions"]) if r.report.get("solutions") else "infinitely many", r.models, r.slug) for r in with_label]
     found += minimal(program, {line[0] for line in found})
     for nodes in range(11, largest + 1):
         found += listed(program, nodes)

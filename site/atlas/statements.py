@@ -69,29 +69,6 @@ def proved():
     return found
 
 
-def picture(found, uses, in_coq):
-    """A column for each section; what names what, as arcs. The page's script lights up a statement's own arcs."""
-    sections = {}
-    for number in found:
-        sections.setdefault(key(number)[0], []).append(number)
-    at = {n: (50 + 66 * k, 40 + 24 * row) for k, section in enumerate(sorted(sections)) for row, n in enumerate(sections[section])}
-    height = 60 + 24 * max(map(len, sections.values()))
-    home = homes()
-    arcs = []
-    for number, named in uses.items():
-        for other in named:
-            (x1, y1), (x2, y2) = at[number], at[other]
-            bend = 18 if x1 == x2 else 0
-            arcs.append(f'<path data-from="{number}" data-to="{other}" d="M{x1} {y1}C{(x1 + x2) / 2 - bend} {y1} {(x1 + x2) / 2 - bend} {y2} {x2} {y2}"/>')
-    boxes = [
-        f'<a href="{home[n]}.html#{anchor(n)}" data-number="{n}"><title>{found[n][0]} {n}</title><rect class="{"coq" if n in in_coq else ""}" x="{x - 21}" y="{y - 9}" width="42" height="18" rx="5"/><text x="{x}" y="{y}">{n}</text></a>'
-        for n, (x, y) in at.items()
-    ]
-    heads = [f'<text class="head" x="{50 + 66 * k}" y="16">§{section}</text>' for k, section in enumerate(sorted(sections))]
-    width = 70 + 66 * len(sections)
-    return f'<div class="statements" tabindex="0" role="region" aria-label="What names what"><svg viewBox="0 0 {width} {height}" width="{width}" role="group" aria-label="Statements by section, and which name which">{"".join(arcs)}{"".join(heads)}{"".join(boxes)}</svg></div>'
-
-
 def markdown():
     """The page, as Markdown."""
     found = statements()
@@ -102,8 +79,8 @@ def markdown():
     code = lambda cell: re.sub(r"\[(`[^`]+`)\]\[[^]]*\]", r"\1", cell)
     lines = [
         "# Statements", "",
-        f"The {len(found)} numbered statements of the [theory](theory.md). An arc, and *names*: the statement or its proof names the other. Code and tests are those of [formulas](formulas.md), the chapters of the Coq development those that [proofs](proofs.md) lists; a chapter may have part of a statement. Green: there is one.",
-        "", picture(found, uses, in_coq), "",
+        f"The {len(found)} numbered statements of the [theory](theory.md). *Names*: the statement or its proof names the other. Code and tests are those of [formulas](formulas.md), the chapters of the Coq development those that [proofs](proofs.md) lists; a chapter may have part of a statement.",
+        "",
         "| | says | names | named by | code | tests | Coq |", "|---|---|---|---|---|---|---|",
     ]
     for number, (kind, _) in found.items():

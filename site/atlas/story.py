@@ -1,5 +1,7 @@
 """The contraction of a graph, told from the bodies of its certificate (docs/certificate.md, section 5)."""
 
+from html import escape
+
 from .pictures import COLOURS, step
 
 
@@ -36,7 +38,6 @@ class Story:
 
     def tell(self):
         """The steps, as pairs of words and pictures."""
-        self.show("The graph: every pair by itself is rigid.")
         for number, body in enumerate(self.certificate["bodies"], 1):
             pairs, nodes, what = self.take(body["seed"])
             self.bodies.append(set(pairs))
@@ -59,7 +60,8 @@ class Story:
                 why = rule.get(len(names), "merge with it")
                 if len(names) == 1:
                     why = "shares two cameras with it"
-                self.show(f"{start} {named_texts(names)} {why}, at the cameras {named(merge['at'])}: one body.".strip(), set(merge["at"]))
+                what = named(names)
+                self.show(f"{start} {what[0].upper()}{what[1:]} {why}, at the cameras {named(merge['at'])}: one body.".strip(), set(merge["at"]))
                 start = ""
             if not body["add"] and not body["merge"]:
                 self.show(start)
@@ -71,10 +73,14 @@ class Story:
             end = f"No rule goes on: {len(left)} {'body' if len(left) == 1 else 'bodies'} and {loose} loose pairs are left, for the algebra."
         else:
             end = "No rule of contraction begins: all of it is left for the algebra."
-        self.show(end)
-        return self.steps
+        # The last picture is that of the end.
+        words, picture = self.steps.pop() if self.steps else ("", "")
+        return [*self.steps, (f"{words} {end}".strip(), picture)]
 
 
-def named_texts(names):
-    text = names[0] if len(names) == 1 else ", ".join(names[:-1]) + " and " + names[-1]
-    return text[0].upper() + text[1:]
+def listed(steps):
+    """Steps as HTML; one without a picture is a sentence."""
+    if not steps[0][1]:
+        return f"<p>{escape(steps[0][0])}</p>"
+    items = "".join(f"<li><figure>{picture}<figcaption>{escape(words)}</figcaption></figure></li>" for words, picture in steps)
+    return f'<ol class="story">{items}</ol>'

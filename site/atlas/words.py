@@ -1,5 +1,6 @@
 """Words and HTML that pages share."""
 
+import json
 import re
 from html import escape
 
@@ -9,7 +10,7 @@ VERDICTS = {
     "not-finite-solvable": ("not finite solvable", "infinitely many sets of cameras", "bad"),
 }
 
-MENU = [("index.html", "Atlas"), ("search.html", "Search"), ("gallery.html", "Gallery"), ("graph.html", "Your graph"), ("check.html", "Check"), ("docs/index.html", "Documentation")]
+MENU = [("index.html", "Atlas"), ("search.html", "Search"), ("gallery.html", "Gallery"), ("photographs.html", "Your photographs"), ("graph.html", "Your graph"), ("check.html", "Check"), ("docs/index.html", "Documentation")]
 
 
 def page(title, body, *, depth=0, scripts=(), data="", about="", current=""):
@@ -31,7 +32,11 @@ def page(title, body, *, depth=0, scripts=(), data="", about="", current=""):
 <meta http-equiv="Content-Security-Policy" content="{policy}">
 <title>{escape(title)} – viewcert</title>
 <meta name="description" content="{escape(about or title)}">
-<link rel="icon" href="data:,">
+<meta property="og:title" content="{escape(title)}">
+<meta property="og:description" content="{escape(about or title)}">
+<meta property="og:type" content="website">
+<meta property="og:site_name" content="viewcert">
+<link rel="icon" href="{up}static/icon.svg">
 <link rel="stylesheet" href="{up}static/site.css">
 {data}</head>
 <body data-up="{up}">
@@ -44,6 +49,13 @@ def page(title, body, *, depth=0, scripts=(), data="", about="", current=""):
 {loaded}</body>
 </html>
 """
+
+
+def dataset(value):
+    """What is described as a data set, for those that read pages by machine."""
+    licences = ["https://spdx.org/licenses/MIT", "https://spdx.org/licenses/Apache-2.0"]
+    whole = {"@context": "https://schema.org", "@type": "Dataset", **value, "license": licences, "creator": {"@type": "Organization", "name": "The viewcert developers"}}
+    return f'<script type="application/ld+json">{json.dumps(whole).replace("<", chr(92) + "u003c")}</script>\n'
 
 
 def badge(verdict):

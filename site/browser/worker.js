@@ -1,40 +1,56 @@
-// `verify` as WebAssembly, beside the page: one run of the program for each message. There is no folder and no clock to wait
-// for; what a command writes goes to standard output (`--certificate -`).
-import { File, OpenFile, WASI } from "@bjorn3/browser_wasi_shim";
+// `verify` as WebAssembly, beside the page: one run of the program for each message. The files that the reader chose are its
+// only files, and are not written to; what a command writes goes to standard output (`--certificate -`).
+import { Directory, File, OpenFile, PreopenDirectory, SyncOPFSFile, WASI } from "@bjorn3/browser_wasi_shim";
 
+const BLOCK = 1 << 17, BLOCKS = 512;
 let program = null;
 
-// What Debian's C library for WASI has not: there are no threads, and then all is done by the one there is; nothing else of
-// this is called, as there is no folder.
-const NO_THREADS = 52;
-const missing = {
-  pthread_create: () => NO_THREADS,
-  pthread_attr_init: () => 0,
-  pthread_attr_setstacksize: () => 0,
-  pthread_attr_destroy: () => 0,
-};
-
-function library() {
-  const needed = WebAssembly.Module.imports(program).filter(({ module }) => module === "env").map(({ name }) => name);
-  const absent = (name) => () => { throw new Error(`${name} is not there in a page`); };
-  return Object.fromEntries(needed.map((name) => [name, missing[name] ?? absent(name)]));
+// A file of any size, of which the program reads what it needs: the last blocks are kept.
+function sliced(blob) {
+  const kept = new Map(), reader = new FileReaderSync();
+  const block = (k) => {
+    if (!kept.has(k)) {
+      if (kept.size === BLOCKS) kept.delete(kept.keys().next().value);
+      kept.set(k, new Uint8Array(reader.readAsArrayBuffer(blob.slice(k * BLOCK, (k + 1) * BLOCK))));
+    }
+    return kept.get(k);
+  };
+  const read = (into, { at }) => {
+    const size = Math.max(0, Math.min(into.length, blob.size - at));
+    for (let done = 0; done < size;) {
+      const k = Math.floor((at + done) / BLOCK), from = at + done - k * BLOCK;
+      const part = block(k).subarray(from, from + size - done);
+      into.set(part, done);
+      done += part.length;
+    }
+    return size;
+  };
+  return new SyncOPFSFile({ getSize: () => blob.size, read }, { readonly: true });
 }
 
-function run(words, input) {
-  const [standard, printed, said] = [new TextEncoder().encode(input), [], []].map((content) => new File(content));
-  const wasi = new WASI(["verify", ...words], [], [standard, printed, said].map((file) => new OpenFile(file)), { debug: false });
-  const instance = new WebAssembly.Instance(program, { wasi_snapshot_preview1: wasi.wasiImport, env: library() });
-  const read = (file) => new TextDecoder().decode(file.data);
-  let code;
-  try {
-    code = wasi.start(instance);
-  } catch (error) {
-    return { code: 101, out: "", err: `${read(said)}${error}` };
+function folder(files) {
+  const root = new Map();
+  for (const [path, blob] of files) {
+    const names = path.split("/"), name = names.pop();
+    const place = names.reduce((at, step) => at.get(step)?.contents ?? at.set(step, new Directory(new Map())).get(step).contents, root);
+    place.set(name, sliced(blob));
   }
-  return { code, out: read(printed), err: read(said) };
+  return new PreopenDirectory("/", root);
 }
 
-onmessage = ({ data: { module, number, words, input } }) => {
+function run(words, input, files) {
+  const standard = [new TextEncoder().encode(input), [], []].map((content) => new File(content));
+  const wasi = new WASI(["verify", ...words], [], [...standard.map((file) => new OpenFile(file)), folder(files)], { debug: false });
+  const instance = new WebAssembly.Instance(program, { wasi_snapshot_preview1: wasi.wasiImport });
+  const [, out, err] = standard.map((file) => () => new TextDecoder().decode(file.data));
+  try {
+    return { code: wasi.start(instance), out: out(), err: err() };
+  } catch (error) {
+    return { code: 101, out: "", err: `${err()}${error}` };
+  }
+}
+
+onmessage = ({ data: { module, number, words, input, files } }) => {
   program ??= module;
-  if (words) postMessage({ number, ...run(words, input) });
+  if (words) postMessage({ number, ...run(words, input, files) });
 };

@@ -5,6 +5,7 @@ import json
 import pathlib
 import subprocess
 import sys
+from html import escape
 
 HERE = pathlib.Path(__file__).parent
 PLACE = json.loads((HERE / "place.json").read_text())
@@ -24,10 +25,10 @@ myst_heading_anchors = 4
 myst_dmath_double_inline = True
 html_theme = "furo"
 html_title = "viewcert"
-html_theme_options = {"announcement": '<a href="../index.html">Atlas</a> · <a href="../search.html">Search</a> · <a href="../gallery.html">Gallery</a> · <a href="../graph.html">Your graph</a> · <a href="../check.html">Check</a> · Documentation'}
+html_theme_options = {"announcement": '<a href="../index.html">Atlas</a> · <a href="../search.html">Search</a> · <a href="../gallery.html">Gallery</a> · <a href="../photographs.html">Your photographs</a> · <a href="../graph.html">Your graph</a> · <a href="../check.html">Check</a> · Documentation'}
 html_static_path = ["docs.css", "docs.js"]
 html_css_files = ["docs.css"]
-html_js_files = ["docs.js"]
+html_js_files = ["../../static/terms.js", "../../static/site.js", "docs.js"]
 html_copy_source = False
 html_show_sphinx = False
 html_math_renderer = "mathml"
@@ -74,10 +75,11 @@ def block(translator, node):
     raise nodes.SkipNode
 
 
-def glossary(app, page, template, context, doctree):
-    """The words of the glossary, for the pop-ups."""
-    terms = json.dumps(PLACE["terms"]).replace("<", "\\u003c")
-    context["body"] = context.get("body", "") + f'<script type="application/json" id="terms">{terms}</script>'
+def described(app, page, template, context, doctree):
+    """A description of its own for each page: its first paragraph."""
+    first = doctree and next((node.astext() for node in doctree.findall(lambda node: node.tagname == "paragraph")), "")
+    if first:
+        context["metatags"] = context.get("metatags", "") + f'<meta name="description" content="{escape(" ".join(first.split())[:300])}">'
 
 
 def signature(app, what, name, of, options, arguments, returned):
@@ -88,5 +90,5 @@ def signature(app, what, name, of, options, arguments, returned):
 def setup(app):
     app.connect("autodoc-process-signature", signature)
     app.add_html_math_renderer("mathml", inline_renderers=(inline, None), block_renderers=(block, None))
-    app.connect("html-page-context", glossary)
+    app.connect("html-page-context", described)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -28,13 +28,14 @@ const PROGRAM = (() => {
     waiting.clear();
   }
 
-  // Exit code, standard output and standard error of a run of `verify` with these arguments and this standard input.
-  async function run(words, input) {
+  // Exit code, standard output and standard error of a run of `verify` with these arguments, this standard input and these
+  // files, each a path and a File.
+  async function run(words, input, files = []) {
     await start();
     const mine = ++number;
     return new Promise((done, failed) => {
       waiting.set(mine, [done, failed]);
-      worker.postMessage({ number: mine, words, input });
+      worker.postMessage({ number: mine, words, input, files });
     });
   }
 

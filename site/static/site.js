@@ -2,7 +2,7 @@
 // What every page has: scripts that are loaded when they are needed, words of the glossary that explain themselves, texts that
 // can be saved.
 const text = (id) => JSON.parse(document.getElementById(id).textContent);
-const up = document.body.dataset.up;
+const up = document.body?.dataset.up ?? "../";
 const loaded = {};
 
 function load(name) {
@@ -26,14 +26,16 @@ function save(name, content, type = "text/plain") {
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 
-const SUFFIX = { certificate: ".certificate.json", proof: ".proof", witness: ".witness.json", pairs: ".txt" };
+const SUFFIX = { certificate: ".certificate.json", proof: ".proof", witness: ".witness.json", pairs: ".txt", adjacency: ".adjacency.txt", graph: ".json", bibtex: ".bib", picture: ".svg" };
+const drawing = () => document.querySelector("svg.graph").outerHTML;
+const asText = (value) => (typeof value === "string" ? value : JSON.stringify(value, null, 1));
 
 // Buttons that save, and words of the glossary, in a part of the page that has just come to be.
 function enliven(part) {
   for (const button of part.querySelectorAll("[data-save]")) {
     const what = button.dataset.save;
     const stem = location.pathname.split("/").pop().replace(/\.html$/, "");
-    button.addEventListener("click", () => save(stem + SUFFIX[what], text(what)));
+    button.addEventListener("click", () => save(stem + SUFFIX[what], what === "picture" ? drawing() : asText(text(what))));
   }
   for (const link of part.querySelectorAll("a.term")) {
     const found = (window.TERMS || {})[link.dataset.term];

@@ -1,14 +1,16 @@
 "use strict";
 // A graph of the reader's: pasted or drawn, named, looked up in the atlas, and decided in the page.
-const NAMES = window.ATLAS.columns;
-const AT = Object.fromEntries(NAMES.map((name, k) => [name, k]));
-let rows = null;
+let rows = null, AT = null;
 const id = (name) => document.getElementById(name);
 const SVG = "http://www.w3.org/2000/svg";
 const drawn = { nodes: 0, pairs: [], names: null, places: [], chosen: null };
 const MOST_DRAWN = 200;
+// The most cameras of a label.
+const MOST_NODES = 16;
 
-function rowOf(label) {
+async function rowOf(label) {
+  await load("rows.js");
+  AT ??= Object.fromEntries(window.ATLAS.columns.map((name, k) => [name, k]));
   rows ??= new Map(window.ATLAS.text.split("\n").map((line) => [line.slice(0, line.indexOf("\t")), line]));
   return rows.get(label)?.split("\t");
 }
@@ -20,25 +22,15 @@ function element(name, attributes, text = "") {
   return made;
 }
 
-// Springs from a circle: the same picture for the same graph.
-function layout({ nodes, pairs }) {
-  const width = 640, height = 300;
-  const at = Array.from({ length: nodes }, (_, v) => [Math.cos((2 * Math.PI * v) / nodes), Math.sin((2 * Math.PI * v) / nodes)]);
-  for (let round = 0; round < 300; round++) {
-    const force = at.map(() => [0, 0]), heat = 0.1 * (1 - round / 300);
-    const push = (i, j, by) => {
-      const dx = at[i][0] - at[j][0], dy = at[i][1] - at[j][1], d = Math.hypot(dx, dy) || 0.01, f = by(d) / d;
-      force[i][0] += dx * f; force[i][1] += dy * f; force[j][0] -= dx * f; force[j][1] -= dy * f;
-    };
-    for (let i = 0; i < nodes; i++) for (let j = 0; j < i; j++) push(i, j, (d) => 0.18 / d);
-    for (const [i, j] of pairs) push(i, j, (d) => -d * d);
-    at.forEach((p, v) => { const f = Math.hypot(...force[v]) || 1, s = Math.min(f, heat) / f; p[0] += force[v][0] * s; p[1] += force[v][1] * s; });
-  }
-  const xs = at.map((p) => p[0]), ys = at.map((p) => p[1]);
-  const [x0, y0] = [Math.min(...xs), Math.min(...ys)];
-  const scale = Math.min((width - 80) / (Math.max(...xs) - x0 || 1), (height - 60) / (Math.max(...ys) - y0 || 1));
-  const dx = (width - scale * (Math.max(...xs) - x0)) / 2, dy = (height - scale * (Math.max(...ys) - y0)) / 2;
-  return at.map(([x, y]) => [dx + (x - x0) * scale, dy + (y - y0) * scale]);
+// A place for a camera of its own; and those of the program's picture, as large as the ground.
+const spot = (v) => [320 + 26 * Math.sqrt(v) * Math.cos(2.4 * v), 150 + 14 * Math.sqrt(v) * Math.sin(2.4 * v)];
+async function layout(graph) {
+  if (!graph.pairs.length) return Array.from({ length: graph.nodes }, (_, v) => spot(v));
+  const { out } = await PROGRAM.run(["draw", "-", "-"], `${toGraph6(graph)}\n`), places = [];
+  for (const [, v, x, y] of out.matchAll(/<g data-node="(\d+)" transform="translate\(([-\d.]+) ([-\d.]+)\)">/g)) places[v] = [+x, +y];
+  const spans = [0, 1].map((axis) => places.map((place) => place[axis])).map((all) => [Math.min(...all), Math.max(...all)]);
+  const scale = Math.min(560 / (spans[0][1] - spans[0][0] || 1), 240 / (spans[1][1] - spans[1][0] || 1));
+  return places.map((place) => place.map((x, axis) => [320, 150][axis] + scale * (x - (spans[axis][0] + spans[axis][1]) / 2)));
 }
 
 function paint() {
@@ -63,7 +55,7 @@ function line(term, value) {
   return div;
 }
 
-// What is said at once: counted in this script, and looked up in the table of the atlas.
+// What is said at once, counted in this script.
 function tell() {
   const place = id("found");
   const { nodes, pairs, names } = drawn;
@@ -77,15 +69,19 @@ function tell() {
   const words = document.createElement("p");
   place.append(facts, words);
   if (names?.some((name, v) => name !== String(v))) words.append(`Numbered here: ${names.map((name, v) => `${v} is ${name}`).join(", ")}. `);
-  if (nodes > MOST_NODES) return;
-  const best = greatest(drawn), label = labelOf(drawn), row = rowOf(label);
-  facts.append(line("label", label), line("graph6, greatest", toGraph6(best)), line("girth", girthOf(drawn) || "no cycle"), line("automorphisms", best.automorphisms));
+}
+
+// What the program says of a small graph, and the place of the atlas where it is.
+async function tellName({ label, graph6, girth, automorphisms }, current) {
+  const facts = id("found").querySelector("dl");
+  facts.append(line("label", label), line("graph6, greatest", graph6), line("girth", girth || "no cycle"), line("automorphisms", automorphisms));
   facts.dataset.label = label;
-  if (!row) return;
-  const link = document.createElement("a");
-  link.href = row[AT.page] !== "0" ? `graphs/${row[AT.page]}.html` : `search.html#kernel=${row[AT.kernel]}`;
-  link.textContent = row[AT.page] !== "0" ? "its page" : "graphs with the same kernel";
-  words.append("This graph is in the atlas: ", link, ".");
+  const row = await rowOf(label);
+  if (!row || !current()) return;
+  const link = document.createElement("a"), stored = row[AT.page] !== "0";
+  link.href = stored ? `graphs/${row[AT.page]}.html` : `search.html#kernel=${row[AT.kernel]}`;
+  link.textContent = stored ? "its page" : "graphs with the same kernel";
+  facts.nextSibling.append("This graph is in the atlas: ", link, ".");
 }
 
 // Seconds that one question may take, and the most pairs for which a second solution and an explicit proof are asked for.
@@ -117,6 +113,7 @@ async function decide() {
     status("The program is starting …");
     const first = await ask("report", ["--json", "--components", "--solutions=off", "-"]);
     if (current()) tellVerdict(JSON.parse(first));
+    if (nodes <= MOST_NODES) await tellName(JSON.parse(await ask("label", ["label", "--json", "-"])), current);
     status("Decided. Its solutions are being counted …");
     await ask("report", ["--json", "--components", "-"]);
     const report = JSON.parse(said.report);
@@ -124,7 +121,6 @@ async function decide() {
     status("Decided. Its certificate, proof and picture are being made …");
     await ask("certificate", ["-", "--certificate", "-"]);
     await ask("models", ["models", "--json", "-"]);
-    if (nodes <= MOST_NODES) await ask("label", ["label", "--json", "-"]);
     await ask("picture", ["draw", "-", "-"]);
     if (pairs.length <= MOST_PAIRS) await ask("proof", ["-", "--proof", "-", "--solutions=off"]);
     if ((report.solutions?.at_least ?? 1) > 1 && pairs.length <= MOST_PAIRS) {
@@ -162,10 +158,10 @@ async function written(graph6, said) {
   await load("writer.js");
   found.FS.mkdirTree("/writer/atlas");
   for (const [name, source] of Object.entries(window.WRITER)) found.FS.writeFile(`/writer/${name}`, source);
-  const kernels = {};
+  const kernels = {}, listed = Boolean(await rowOf(id("found").firstChild.dataset.label));
   for (const row of window.ATLAS.text.split("\n")) { const kernel = row.split("\t")[AT.kernel]; kernels[kernel] = (kernels[kernel] ?? 0) + 1; }
-  found.globals.set("asked", JSON.stringify({ graph6, said, siblings: kernels, listed: Boolean(rowOf(id("found").firstChild.dataset.label)) }));
-  return found.runPython("import json, sys; sys.path.append('/writer') if '/writer' not in sys.path else None\nimport atlas.own; atlas.own.written(**json.loads(asked))");
+  found.globals.set("asked", JSON.stringify({ graph6, said, siblings: kernels, listed }));
+  return found.runPython("import json, sys; sys.path.append('/writer') if '/writer' not in sys.path else None\nimport atlas.graph_page; atlas.graph_page.written(**json.loads(asked))");
 }
 
 let pause = 0;
@@ -178,8 +174,8 @@ function changed() {
   pause = setTimeout(decide, 600);
 }
 
-function take(graph) {
-  Object.assign(drawn, { nodes: graph.nodes, pairs: graph.pairs, names: graph.names, places: layout(graph), chosen: null });
+function take(graph, places) {
+  Object.assign(drawn, { nodes: graph.nodes, pairs: graph.pairs, names: graph.names, places, chosen: null });
   id("message").textContent = "";
   paint();
   tell();
@@ -188,10 +184,10 @@ function take(graph) {
 
 // A label; or any text that `verify` reads, read by it.
 async function graphOf(text) {
-  if (text.startsWith("vg.")) return ofLabel(text);
-  const { code, out, err } = await PROGRAM.run(["convert", "-"], `${text}\n`);
-  if (code) throw new Error(err.trim().replace(/^verify: -(?::(\d+))?: /, (_, line) => (line ? `line ${line}: ` : "")));
-  return ofConverted(out);
+  const label = /^vg\.\S+$/i.test(text) && text.toLowerCase();
+  const { code, out, err } = await PROGRAM.run(label ? ["label", "--json", label] : ["convert", "-"], `${text}\n`);
+  if (code) throw new Error(err.trim().replace(/^verify: (?:-(?::(\d+))?: )?/, (_, line) => (line ? `line ${line}: ` : "")));
+  return label ? graphOf(JSON.parse(out).graph6) : ofConverted(out);
 }
 
 // Not `read`: by a function of that name Python takes the page for a shell.
@@ -203,17 +199,15 @@ async function taken(input) {
   id("status").textContent = "The program is starting …";
   try {
     const graph = await graphOf(input.trim());
-    if (mine !== asked) return;
     if (graph.nodes > MOST_DRAWN) throw new Error(`this page decides graphs of up to ${MOST_DRAWN} cameras; for larger ones there is the program`);
-    take(graph);
+    const places = await layout(graph);
+    if (mine === asked) take(graph, places);
   } catch (error) {
     if (mine !== asked) return;
     id("status").textContent = "";
     id("message").textContent = error.message;
   }
 }
-
-function nodeAdded(x, y) { drawn.places.push([x, y]); drawn.nodes++; drawn.names = null; }
 
 function joined(i, j) {
   const [a, b] = [Math.min(i, j), Math.max(i, j)];
@@ -224,7 +218,9 @@ function joined(i, j) {
 // A camera at a place, joined to the chosen one.
 function placed(x, y) {
   if (drawn.nodes >= MOST_DRAWN) return;
-  nodeAdded(x, y);
+  drawn.places.push([x, y]);
+  drawn.nodes++;
+  drawn.names = null;
   if (drawn.chosen !== null) joined(drawn.chosen, drawn.nodes - 1);
   drawn.chosen = null;
   changed();
@@ -251,9 +247,9 @@ id("canvas").addEventListener("keydown", (event) => {
   event.preventDefault();
   pressed(+node);
 });
-id("add").addEventListener("click", () => { const turn = 2.4 * drawn.nodes, far = 26 * Math.sqrt(drawn.nodes); placed(320 + far * Math.cos(turn), 150 + 0.55 * far * Math.sin(turn)); });
+id("add").addEventListener("click", () => placed(...spot(drawn.nodes)));
 id("stop").addEventListener("click", () => PROGRAM.stop());
-id("empty").addEventListener("click", () => take({ nodes: 0, pairs: [] }));
+id("empty").addEventListener("click", () => take({ nodes: 0, pairs: [] }, []));
 id("read").addEventListener("submit", (event) => { event.preventDefault(); history.replaceState(null, "", `#${encodeURIComponent(id("pasted").value)}`); taken(id("pasted").value); });
 function fromAddress() {
   let input = "";

@@ -71,6 +71,10 @@ impl Opened {
         let other = |error: std::io::Error| DatabaseError::Other(error.to_string());
         // Companions stand beside the file itself, not beside a link to it.
         let path = fs::canonicalize(path).map_err(other)?;
+        if cfg!(target_os = "wasi") {
+            // In a page nobody else has the file, and there are no locks (site/).
+            return Self::with(&path, "mode=ro&vfs=unix-none", None);
+        }
         let (wal, shm) = (beside(&path, "-wal"), beside(&path, "-shm"));
         if !is_wal(&path).map_err(other)? {
             return Self::with(&path, "mode=ro", None);
@@ -94,6 +98,10 @@ impl Opened {
         // The database comes from anywhere, and what it defines is not run.
         connection.set_db_config(DbConfig::SQLITE_DBCONFIG_TRUSTED_SCHEMA, false)?;
         connection.set_db_config(DbConfig::SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, true)?;
+        if cfg!(target_os = "wasi") {
+            // A log is read without memory that programs share.
+            connection.execute_batch("pragma locking_mode = exclusive")?;
+        }
         let opened = Self {
             connection,
             note: None,

@@ -1,4 +1,0 @@
-// Columns to a file of parquet.
-import { parquetWriteBuffer } from "hyparquet-writer";
-
-window.parquet = (columnData) => parquetWriteBuffer({ columnData });
