@@ -1,6 +1,8 @@
 """Says what is wrong with the wheels in a folder: what a wheel of this project has to hold.
 
-    python packaging/wheel.py FOLDER
+    python packaging/wheel.py FOLDER [MEGABYTES]
+
+A wheel that is released has at most so many megabytes.
 """
 
 from __future__ import annotations
@@ -58,6 +60,8 @@ def main() -> None:
     if not wheels:
         sys.exit(f"{sys.argv[1]}: no wheels")
     bad = [f"{wheel.name}: {fault}" for wheel in wheels for fault in faults(wheel)]
+    most = float(sys.argv[2]) * 1e6 if len(sys.argv) > 2 else float("inf")
+    bad += [f"{wheel.name}: more than {sys.argv[2]} MB" for wheel in wheels if wheel.stat().st_size > most]
     if bad:
         sys.exit("\n".join(bad))
     for wheel in wheels:

@@ -1,10 +1,10 @@
 //! What is determined at given cameras (docs/theory.md, section 16), and their certificates.
 
-use crate::check::{checked, of_strength};
 use crate::decided::{Decided, bytes_of, written};
-use crate::errors::{InputError, Rejected, of_any, of_deciding, of_reading};
+use crate::errors::InputError;
 use crate::graph::Graph;
 use crate::work::Job;
+use anyhow::{Context, anyhow};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::path::PathBuf;
@@ -13,7 +13,6 @@ use viewcert::Model;
 use viewcert::at_cameras::{Centres, Here, HereError, Special, at_cameras, open_focal_lengths};
 use viewcert::linalg::rational::Rational;
 use viewcert_advice::Advice;
-use viewcert_check::HereCertificate;
 use viewcert_formats::{NamedGraph, cameras_beside, centre_error};
 use viewcert_report::Report;
 use viewcert_report::assumptions::Scope;
@@ -65,14 +64,11 @@ impl Cameras {
     fn in_file(py: Python<'_>, graph: &Graph, model: &str, path: PathBuf) -> PyResult<Self> {
         let (input, model) = (Arc::clone(&graph.0), of_name(model)?);
         let shown = path.display().to_string();
-        if let Err(error) = path.metadata() {
-            return Err(InputError::new_err(format!("{shown}: {error}")));
-        }
-        let found = Job::new(py)?.run(py, move || cameras_beside(&path, &input, model))?;
-        let none = || InputError::new_err(format!("{shown}: there are no cameras in it"));
-        let found = found
-            .map_err(|error| of_reading(&error))?
-            .ok_or_else(none)?;
+        let found = Job::new(py)?.answer(py, move || {
+            path.metadata().with_context(|| shown.clone())?;
+            let found = cameras_beside(&path, &input, model)?;
+            found.with_context(|| format!("{shown}: there are no cameras in it"))
+        })?;
         Ok(Self {
             centres: Arc::new(found.centres),
             notes: found.notes,
@@ -150,15 +146,13 @@ impl AtCameras {
         }
         let (centres, job) = (Arc::clone(&cameras.centres), Job::new(py)?);
         let (at, stop) = (Arc::clone(&centres), job.watch());
-        let graph = Arc::clone(&input);
-        let asked = move || at_cameras(&graph.graph, &at, &stop);
-        let found = job.run(py, asked)?;
-        let here = found.map_err(|error| match error {
-            HereError::Centre(error) => {
-                InputError::new_err(format!("cameras: {}", centre_error(error, &input)))
-            }
-            HereError::Verdict(error) => of_deciding(&error),
-            other => InputError::new_err(other.to_string()),
+        let here = job.answer(py, move || {
+            let found = at_cameras(&input.graph, &at, &stop);
+            found.map_err(|error| match error {
+                HereError::Centre(error) => anyhow!("cameras: {}", centre_error(error, &input)),
+                HereError::Verdict(error) => error.into(),
+                other => other.into(),
+            })
         })?;
         Ok(Self {
             decided,
@@ -178,9 +172,8 @@ impl AtCameras {
     fn velocities(&self, py: Python<'_>) -> PyResult<Option<Vec<Vec<Option<Velocity>>>>> {
         let job = Job::new(py)?;
         let (here, centres, stop) = (self.here.clone(), self.centres.clone(), job.watch());
-        let asked = move || here.basis_of_motions(&centres, &stop);
-        let found = job.run(py, asked)?;
-        let found = found.map_err(|stopped| of_any(&stopped.into()))?;
+        let asked = move || Ok(here.basis_of_motions(&centres, &stop)?);
+        let found = job.answer(py, asked)?;
         let texts = |velocity: &Option<[Rational; 3]>| {
             velocity
                 .as_ref()
@@ -252,67 +245,4 @@ impl AtCameras {
         };
         bytes_of(py, &job, answer)
     }
-}
-
-/// What a certificate at given cameras proves.
-#[pyclass(frozen, get_all, module = "viewcert._native")]
-pub(crate) struct VerifiedAtCameras {
-    /// Whether the cameras are determined.
-    determined: bool,
-    /// `proof` or `error-bound`.
-    strength: &'static str,
-    /// The exponent of the error bound.
-    error_log2: Option<i64>,
-    /// The rank at these cameras.
-    rank: i64,
-    /// The rank that determines.
-    required: i64,
-    /// The number of components there.
-    components: i64,
-    /// The question.
-    model: String,
-    /// The hash of the centres.
-    centres_sha256: String,
-    /// Nodes of the graph.
-    nodes: usize,
-    /// Its pairs.
-    edges: usize,
-    /// Its hash.
-    sha256: String,
-    /// All of it in words.
-    text: String,
-}
-
-/// Verifies a certificate at given cameras, for a graph if it is given, and for centres with a hash.
-#[pyfunction]
-#[pyo3(signature = (certificate, *, graph=None, centres=None, max_operations=None))]
-pub(crate) fn check_at_cameras(
-    py: Python<'_>,
-    certificate: Vec<u8>,
-    graph: Option<&Graph>,
-    centres: Option<String>,
-    max_operations: Option<u64>,
-) -> PyResult<VerifiedAtCameras> {
-    let verified = checked(py, graph, max_operations, move |graph, limits| {
-        HereCertificate::parse(&certificate)?.check_within(graph, limits)
-    })?;
-    if centres.is_some_and(|hash| hash != verified.centres_sha256) {
-        let other = "the cameras that are expected have another hash".to_owned();
-        return Err(Rejected::new_err(("centres".to_owned(), other)));
-    }
-    let strength = of_strength(verified.rank.1);
-    Ok(VerifiedAtCameras {
-        text: verified.to_string(),
-        determined: verified.is_determined,
-        strength: strength.0,
-        error_log2: strength.1,
-        rank: verified.rank.0,
-        required: verified.required,
-        components: verified.components.0,
-        model: verified.model.to_string(),
-        centres_sha256: verified.centres_sha256,
-        nodes: verified.size[0],
-        edges: verified.size[1],
-        sha256: verified.sha256,
-    })
 }

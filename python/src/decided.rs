@@ -1,11 +1,12 @@
 //! Verdicts.
 
-use crate::errors::{FileError, InputError, of_any, of_deciding};
+use crate::errors::{FileError, InputError};
 use crate::graph::Graph;
 use crate::work::{self, Job};
+use anyhow::Context;
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
-use pyo3::types::PyBytes;
+use pyo3::types::{PyBytes, PyDict};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -56,12 +57,31 @@ impl Decided {
             input,
             held: held.ok().flatten(),
             verdict: Arc::new(verdict),
-            rational: wanted.bounds.is_some(),
+            rational: wanted.rational,
             planar: wanted.planar,
             focal: wanted.model == "focal",
             seed: wanted.seed,
             time,
         }
+    }
+
+    /// Decides a graph with what is known besides.
+    ///
+    /// # Errors
+    /// What does not go together; those of deciding.
+    pub(crate) fn of(
+        mut input: Arc<NamedGraph>,
+        known: Known,
+        wanted: &Wanted,
+        watch: Watch,
+    ) -> anyhow::Result<Self> {
+        let start = Instant::now();
+        let verdict = viewcert::decide(&input.graph, &wanted.options(known, watch)?)?;
+        if wanted.prime.is_some() && verdict.prime().is_none() {
+            let note = "prime is not used: contraction and counting decide, without residues";
+            Arc::make_mut(&mut input).notes.push(note.to_owned());
+        }
+        Ok(Self::new(input, verdict, wanted, start.elapsed()))
     }
 
     /// The graph and its verdict.
@@ -111,31 +131,57 @@ pub(crate) fn of_words(words: &[String]) -> PyResult<Vec<Class>> {
     words.iter().map(of_word).collect()
 }
 
-/// The displacements that sets of nodes know, of a graph with so many, with the vectors if they are
-/// given.
-pub(crate) fn known_displacements(
-    nodes: u32,
-    groups: &[Vec<u32>],
-    vectors: Option<&[[String; 3]]>,
-) -> PyResult<Displacements> {
-    match vectors {
-        Some(vectors) => with_vectors(nodes, groups, vectors),
-        None => without_vectors(nodes, groups),
+/// What is known of a graph besides its pairs: a `dict` in Python.
+#[derive(Default, FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Beside {
+    /// Known parts.
+    pub(crate) parts: Option<Vec<Vec<u32>>>,
+    /// Sets of nodes whose displacements are known, or pairs of nodes with `vectors`.
+    displacements: Option<Vec<Vec<u32>>>,
+    /// The vectors from the first to the second of each pair.
+    vectors: Option<Vec<[String; 3]>>,
+    /// Whether these are in the frame of the directions.
+    one_frame: bool,
+}
+
+impl Beside {
+    /// The displacements, with those of rigs.
+    pub(crate) fn displaced(&self, input: &NamedGraph) -> PyResult<Known> {
+        let wrong = |why: String| InputError::new_err(format!("displacements: {why}"));
+        let (nodes, groups) = (
+            input.graph.nodes() as u32,
+            self.displacements.as_deref().unwrap_or_default(),
+        );
+        let given = match &self.vectors {
+            Some(vectors) => with_vectors(nodes, groups, vectors),
+            None => without_vectors(nodes, groups),
+        };
+        let given = given.map_err(wrong)?;
+        let known = match self.one_frame || given.is_empty() {
+            true => Known::Displacements(given),
+            false => Known::OwnFrame {
+                given,
+                rigs: Displacements::default(),
+            },
+        };
+        with_rigs(known, input).map_err(|error| InputError::new_err(error.to_string()))
     }
 }
 
 /// Each set as a star: displacements add up.
-fn without_vectors(nodes: u32, groups: &[Vec<u32>]) -> PyResult<Displacements> {
+fn without_vectors(nodes: u32, groups: &[Vec<u32>]) -> Result<Displacements, String> {
     let is_single = |group: &Vec<u32>| group.iter().all(|v| *v == group[0]);
     if groups.iter().any(is_single) {
-        return Err(InputError::new_err(
-            "displacements: a set has fewer than two nodes, and a displacement is between two; leave it out",
-        ));
+        return Err(
+            "a set has fewer than two nodes, and a displacement is between two; leave it out"
+                .into(),
+        );
     }
     let stars = groups.iter().filter_map(|group| group.split_first());
     let stars = stars.flat_map(|(&first, others)| others.iter().map(move |&other| (first, other)));
     let known = Displacements::new(nodes, stars.filter(|(a, b)| a != b));
-    known.map_err(|error| InputError::new_err(format!("displacements: {error}")))
+    known.map_err(|error| error.to_string())
 }
 
 /// Pairs of nodes with the vectors from the first to the second.
@@ -143,21 +189,20 @@ fn with_vectors(
     nodes: u32,
     pairs: &[Vec<u32>],
     vectors: &[[String; 3]],
-) -> PyResult<Displacements> {
-    let wrong = |why: String| InputError::new_err(format!("displacements: {why}"));
+) -> Result<Displacements, String> {
     let mut items = Vec::with_capacity(pairs.len());
     for (pair, vector) in pairs.iter().zip(vectors) {
         let &[u, v] = &pair[..] else {
-            return Err(wrong("vectors go with pairs of nodes".into()));
+            return Err("vectors go with pairs of nodes".into());
         };
         let mut coordinates = [Coordinate::default(); 3];
         for (coordinate, text) in coordinates.iter_mut().zip(vector) {
             let read = text.parse();
-            *coordinate = read.map_err(|error| wrong(format!("{text}: {error}")))?;
+            *coordinate = read.map_err(|error| format!("{text}: {error}"))?;
         }
         items.push((u, v, coordinates));
     }
-    Displacements::with_vectors(nodes, items).map_err(|error| wrong(error.to_string()))
+    Displacements::with_vectors(nodes, items).map_err(|error| error.to_string())
 }
 
 /// What is asked of graphs beside what is known of one: a `dict` in Python.
@@ -168,7 +213,7 @@ pub(crate) struct Wanted {
     seed: u64,
     solutions: Option<String>,
     planar: bool,
-    bounds: Option<(u64, u64)>,
+    rational: bool,
     prime: Option<u64>,
     contraction: bool,
     counting: bool,
@@ -187,35 +232,30 @@ impl Wanted {
     ///
     /// # Errors
     /// What does not go together, in words.
-    pub(crate) fn options(&self, known: Known, watch: Watch) -> Result<Options, String> {
+    pub(crate) fn options(&self, known: Known, watch: Watch) -> anyhow::Result<Options> {
         let focal = self.model == "focal";
         let model = if focal {
             Model::Calibrated
         } else {
-            let wrong = || format!("model={:?}: there is no such model", self.model);
-            self.model.parse().map_err(|_| wrong())?
+            self.model.parse()?
         };
         let solutions = match self.solutions.as_deref() {
             None => CountSolutions::Off,
-            Some("quick") => CountSolutions::Quick,
             Some("full") => CountSolutions::Full,
-            Some(other) => {
-                let wish = "solutions are counted 'quick' or 'full', or not: None";
-                return Err(format!("solutions={other:?}: {wish}"));
-            }
+            Some(_) => CountSolutions::Quick,
         };
         let prime = match self.prime {
             None => Prime::Auto,
             Some(prime) => {
                 let field = PrimeField::new(prime);
-                Prime::Fixed(field.map_err(|error| format!("prime={prime}: {error}"))?)
+                Prime::Fixed(field.with_context(|| format!("prime={prime}"))?)
             }
         };
-        let arithmetic = match self.bounds {
-            None => Arithmetic::Prime,
-            Some((numerator, denominator)) => Arithmetic::Rational {
-                numerator,
-                denominator,
+        let arithmetic = match self.rational {
+            false => Arithmetic::Prime,
+            true => Arithmetic::Rational {
+                numerator: 9,
+                denominator: 4,
             },
         };
         let question = Question {
@@ -226,9 +266,8 @@ impl Wanted {
             solutions,
             known,
         };
-        let question = question.checked().map_err(|error| error.to_string())?;
         Ok(Options::default()
-            .question(question)
+            .question(question.checked()?)
             .prime(prime)
             .seed(self.seed)
             .watch(watch))
@@ -237,61 +276,41 @@ impl Wanted {
 
 /// Decides a graph.
 #[pyfunction]
-#[pyo3(signature = (graph, wanted, *, parts=None, displacements=None, vectors=None, one_frame=false))]
 pub(crate) fn decide(
     py: Python<'_>,
     graph: &Graph,
     wanted: Wanted,
-    parts: Option<Vec<Vec<u32>>>,
-    displacements: Option<Vec<Vec<u32>>>,
-    vectors: Option<Vec<[String; 3]>>,
-    one_frame: bool,
+    beside: Beside,
 ) -> PyResult<Decided> {
     let wrong = |error: &dyn std::fmt::Display| InputError::new_err(error.to_string());
     let job = Job::new(py)?;
-    let nodes = graph.0.graph.nodes() as u32;
-    let known = NamedParts::of_nodes(nodes, parts.unwrap_or_default());
-    let known = known.map_err(|error| wrong(&format!("parts: {error}")))?;
     let mut input = Arc::clone(&graph.0);
-    if !known.notes.is_empty() {
-        let notes = known.notes.iter().map(|note| format!("parts: {note}"));
+    let mut notes = Vec::new();
+    let known = if beside
+        .displacements
+        .as_deref()
+        .is_some_and(|all| !all.is_empty())
+    {
+        beside.displaced(&input)?
+    } else {
+        let nodes = input.graph.nodes() as u32;
+        let named = NamedParts::of_nodes(nodes, beside.parts.unwrap_or_default());
+        let named = named.map_err(|error| wrong(&format!("parts: {error}")))?;
+        notes.extend(named.notes.iter().map(|note| format!("parts: {note}")));
+        let known = if named.parts.is_empty() {
+            let found = given(None, &input, false).map_err(|error| wrong(&error))?;
+            notes.extend(found.notes);
+            found.known
+        } else {
+            Known::Parts(named.parts)
+        };
+        with_rigs(known, &input).map_err(|error| wrong(&error))?
+    };
+    if !notes.is_empty() {
         Arc::make_mut(&mut input).notes.extend(notes);
     }
-    let groups = displacements.unwrap_or_default();
-    let displacements = known_displacements(nodes, &groups, vectors.as_deref())?;
-    let known = match (displacements.is_empty(), one_frame) {
-        (true, _) if known.parts.is_empty() => {
-            let found = given(None, &input, false).map_err(|error| wrong(&error))?;
-            Arc::make_mut(&mut input).notes.extend(found.notes);
-            found.known
-        }
-        (true, _) => Known::Parts(known.parts),
-        (false, true) => Known::Displacements(displacements),
-        (false, false) => Known::OwnFrame {
-            given: displacements,
-            rigs: Displacements::default(),
-        },
-    };
-    let known = with_rigs(known, &input).map_err(|error| wrong(&error))?;
-    let options = wanted.options(known, job.watch());
-    let options = options.map_err(|why| wrong(&why))?;
-    let asked = Arc::clone(&input);
-    let start = Instant::now();
-    let decided = job.run(py, move || viewcert::decide(&asked.graph, &options))?;
-    let verdict = decided.map_err(|error| of_deciding(&error))?;
-    if wanted.prime.is_some() && verdict.prime().is_none() {
-        let note = "prime is not used: contraction and counting decide, without residues";
-        Arc::make_mut(&mut input).notes.push(note.to_owned());
-    }
-    Ok(Decided::new(input, verdict, &wanted, start.elapsed()))
-}
-
-impl Decided {
-    /// The displacements that are given.
-    fn displaced(&self) -> &Displacements {
-        let own_frame = self.verdict.own_frame.as_ref();
-        own_frame.map_or(&self.verdict.displacements, |found| &found.given)
-    }
+    let stop = job.watch();
+    job.answer(py, move || Decided::of(input, known, &wanted, stop))
 }
 
 /// A report as `json`, `text` or `html`.
@@ -311,96 +330,48 @@ pub(crate) fn bytes_of<'py>(
     job: &Job,
     work: impl FnOnce() -> anyhow::Result<Vec<u8>> + Send + 'static,
 ) -> PyResult<Bound<'py, PyBytes>> {
-    let answered = job.run(py, work)?;
-    let bytes = answered.map_err(|error| of_any(&error))?;
-    Ok(PyBytes::new(py, &bytes))
+    Ok(PyBytes::new(py, &job.answer(py, work)?))
 }
 
 #[pymethods]
 impl Decided {
-    /// The question.
-    #[getter]
-    fn model(&self) -> &'static str {
-        self.verdict.model.name()
-    }
-
-    /// The answer.
-    #[getter]
-    fn value(&self) -> &'static str {
-        own_frame::claim(&self.input, self.shown()).map_or("open", |claim| claim.value.name())
-    }
-
-    /// The answer without displacements in a frame of their own.
-    #[getter]
-    fn measured(&self) -> &'static str {
-        self.shown().value.name()
-    }
-
-    /// Whether displacements have a frame of their own.
-    #[getter]
-    fn has_own_frame(&self) -> bool {
-        self.verdict.own_frame.is_some()
-    }
-
-    /// The nodes of which such a displacement is given and nothing else: no pair, no rig.
-    fn only_given(&self) -> Vec<u32> {
-        let found = self.verdict.own_frame.as_ref();
-        found.map_or_else(Vec::new, OwnFrame::only_given)
-    }
-
-    /// The rank that was found.
-    #[getter]
-    fn rank(&self) -> usize {
-        let own_frame = self.shown().own_frame.as_ref();
-        own_frame.map_or(self.shown().rank, |found| found.rank)
-    }
-
-    /// The rank of a finite solvable graph with as many nodes.
-    #[getter]
-    fn required(&self) -> usize {
-        let own_frame = self.shown().own_frame.as_ref();
-        own_frame.map_or(self.shown().required, |found| found.required)
-    }
-
-    /// How strong the answer, the rank and the components are: words, and exponents of error
-    /// bounds.
-    fn strengths(&self) -> [(&'static str, Option<i64>); 3] {
-        let verdict = self.shown();
-        [
-            own_frame::claim(&self.input, verdict).map(|claim| claim.strength),
+    /// The answer and what it takes for given, by the names of `viewcert.Verdict`.
+    fn said<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let (verdict, said) = (self.shown(), PyDict::new(py));
+        let own = verdict.own_frame.as_ref();
+        let claim = own_frame::claim(&self.input, verdict);
+        let value = claim.as_ref().map_or("open", |claim| claim.value.name());
+        let strengths = [
+            claim.map(|claim| claim.strength),
             Some(verdict.rank_claim().strength),
             Some(verdict.components_claim().strength),
-        ]
-        .map(|strength| strength.map_or(("none", None), |claim| (claim.name(), claim.error_log2())))
-    }
-
-    /// The sets of nodes whose displacements it takes for given.
-    fn displacements(&self) -> Vec<Vec<u32>> {
-        self.displaced().groups().to_vec()
-    }
-
-    /// For each of these the vectors from its first node to the others, in one unit, if they are
-    /// given.
-    fn vectors(&self) -> Option<Vec<Vec<[i128; 3]>>> {
-        self.displaced().vectors().map(<[_]>::to_vec)
-    }
-
-    /// The known parts that it rests on.
-    fn parts(&self) -> Vec<Vec<u32>> {
-        let parts = self.verdict.known_parts.iter();
-        parts.map(<[u32]>::to_vec).collect()
-    }
-
-    /// What was noted of the graph and its parts.
-    #[getter]
-    fn notes(&self) -> Vec<String> {
-        self.input.notes.clone()
-    }
-
-    /// How long it took, in seconds.
-    #[getter]
-    fn seconds(&self) -> f64 {
-        self.time.as_secs_f64()
+        ];
+        let strengths = strengths.map(|strength| {
+            strength.map_or(("none", None), |claim| (claim.name(), claim.error_log2()))
+        });
+        let given = own.map_or(&verdict.displacements, |found| &found.given);
+        let parts = verdict.known_parts.iter().map(<[u32]>::to_vec);
+        said.set_item("model", verdict.model.name())?;
+        said.set_item("value", value)?;
+        said.set_item("measured", verdict.value.name())?;
+        said.set_item("one_frame", own.is_none())?;
+        said.set_item(
+            "only_given",
+            own.map_or_else(Vec::new, OwnFrame::only_given),
+        )?;
+        said.set_item("rank", own.map_or(verdict.rank, |found| found.rank))?;
+        said.set_item(
+            "required",
+            own.map_or(verdict.required, |found| found.required),
+        )?;
+        said.set_item("strengths", strengths)?;
+        said.set_item("parts", parts.collect::<Vec<_>>())?;
+        said.set_item("displacements", given.groups())?;
+        said.set_item("vectors", given.vectors())?;
+        said.set_item("notes", &self.input.notes)?;
+        said.set_item("seconds", self.time.as_secs_f64())?;
+        said.set_item("component_count", verdict.components.len())?;
+        Ok(said)
     }
 
     /// The nodes of all components, one after another, and where each component ends.
@@ -416,11 +387,6 @@ impl Decided {
         Ok((nodes.into_pyarray(py), ends.into_pyarray(py)))
     }
 
-    /// How many components there are.
-    fn component_count(&self) -> usize {
-        self.shown().components.len()
-    }
-
     /// The certificate.
     #[pyo3(signature = (*, embed_graph=false, compact=false))]
     fn certificate<'py>(
@@ -430,26 +396,22 @@ impl Decided {
         compact: bool,
     ) -> PyResult<Bound<'py, PyBytes>> {
         let job = Job::new(py)?;
-        let (input, verdict) = (Arc::clone(&self.input), Arc::clone(&self.verdict));
-        let stop = job.watch();
-        let asked = move || assumptions::base_lines(&input, &verdict, &stop);
-        let base_lines = job.run(py, asked)?;
-        let base_lines = base_lines.map_err(|stopped| of_any(&stopped.into()))?;
-        let written = work::briefly(py, || -> std::io::Result<Vec<u8>> {
-            let certificate = self.verdict.certificate(&self.input.graph);
-            let mut certificate = certificate.named(&self.input.name);
+        let ((input, verdict), stop) = (self.answer(), job.watch());
+        let work = move || {
+            let base_lines = assumptions::base_lines(&input, &verdict, &stop)?;
+            let certificate = verdict.certificate(&input.graph).named(&input.name);
+            let mut certificate = certificate.embed_graph(embed_graph);
             if let Some((_, found)) = &base_lines {
                 certificate = certificate.with_base_lines(found);
             }
-            let mut certificate = certificate.embed_graph(embed_graph);
             if compact {
                 certificate = certificate.compact();
             }
             let mut bytes = Vec::new();
             certificate.write_to(&mut bytes)?;
             Ok(bytes)
-        })?;
-        Ok(PyBytes::new(py, &written?))
+        };
+        bytes_of(py, &job, work)
     }
 
     /// The certificate of what is determined if cameras have classes.
@@ -463,22 +425,21 @@ impl Decided {
     ) -> PyResult<Bound<'py, PyBytes>> {
         let sensors = Sensors::new(sensors, self.classes(&classes)?);
         let job = Job::new(py)?;
-        let (input, verdict) = (Arc::clone(&self.input), Arc::clone(&self.verdict));
-        let (stop, seed) = (job.watch(), self.seed);
-        let asked = move || Certified::new(&input.graph, &verdict, &sensors, seed, &stop);
-        let found = job.run(py, asked)?;
-        let found = found.map_err(|stopped| of_any(&stopped.into()))?;
-        let none = || InputError::new_err("a graph without pairs has no certificate of intrinsics");
-        let found = found.ok_or_else(none)?;
-        let graph = (&self.input.graph, &*self.input.name);
-        let mut bytes = Vec::new();
-        found.write_certificate(graph, &self.verdict, embed_graph, &mut bytes)?;
-        Ok(PyBytes::new(py, &bytes))
+        let ((input, verdict), stop, seed) = (self.answer(), job.watch(), self.seed);
+        let work = move || {
+            let found = Certified::new(&input.graph, &verdict, &sensors, seed, &stop)?;
+            let found = found.context("a graph without pairs has no certificate of intrinsics")?;
+            let graph = (&input.graph, &*input.name);
+            let mut bytes = Vec::new();
+            found.write_certificate(graph, &verdict, embed_graph, &mut bytes)?;
+            Ok(bytes)
+        };
+        bytes_of(py, &job, work)
     }
 
     /// What the program says: `kind` is `json`, `text` or `html`.
     #[pyo3(signature = (
-        kind, *, list_components=false, weak=None, suggest=None, write=None, explain=None, export=None, surplus=false, implied=None, intrinsics=None, sensors=None
+        kind, *, list_components=false, weak=None, suggest=None, write=None, explain=None, export=None, surplus=false, implied=None, sensors=None
     ))]
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn report<'py>(
@@ -493,25 +454,16 @@ impl Decided {
         export: Option<PathBuf>,
         surplus: bool,
         implied: Option<u32>,
-        intrinsics: Option<Vec<String>>,
-        sensors: Option<Vec<usize>>,
+        sensors: Option<(Vec<String>, Vec<usize>)>,
     ) -> PyResult<Bound<'py, PyBytes>> {
-        let classes = intrinsics.map(|words| self.classes(&words)).transpose()?;
-        let sensors = classes.map(|classes| match sensors {
-            // A number for each node, and a class for each number.
-            Some(of_node) => Sensors::new(of_node, classes),
-            None => Sensors::own(&classes),
+        let sensors = sensors.map(|(words, of_node)| -> PyResult<_> {
+            Ok(Sensors::new(of_node, self.classes(&words)?))
         });
-        let weak = match weak {
-            None => None,
-            Some("pairs") => Some(Weak::Pairs),
-            Some("images") => Some(Weak::Images),
-            Some(other) => {
-                return Err(InputError::new_err(format!(
-                    "{other:?}: a component hangs on pairs or on images"
-                )));
-            }
-        };
+        let sensors = sensors.transpose()?;
+        let weak = weak.map(|of| match of {
+            "images" => Weak::Images,
+            _ => Weak::Pairs,
+        });
         let mut request = Request {
             weak,
             surplus,
@@ -568,7 +520,7 @@ impl Decided {
     /// The graph with its components in colours, as SVG.
     fn picture(&self, py: Python<'_>) -> PyResult<String> {
         let (input, verdict) = (Arc::clone(&self.input), Arc::clone(&self.verdict));
-        work::run(py, move || Scene::new(&input, &verdict).svg(true))
+        Job::new(py)?.run(py, move || Scene::new(&input, &verdict).svg(true))
     }
 
     /// Writes a file whole or not at all.

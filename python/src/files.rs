@@ -1,24 +1,29 @@
-//! What is asked of several files at once: the overview of a database, lists of images, archives of
+//! What is asked of files: the overview of a database, lists of images, two models, measured motions, archives of
 //! certificates.
 
-use crate::decided::bytes_of;
-use crate::errors::of_any;
 use crate::graph::Reading;
 use crate::studies::{Said, said};
 use crate::work::Job;
 use pyo3::prelude::*;
-use pyo3::types::PyBytes;
+use pyo3::types::{PyBytes, PyDict};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use viewcert_ask::archive::{News, Terms, check_archive};
-use viewcert_ask::{
-    contradictions as motions, lists as lists_of, merge as models, overview as whole,
-};
 use viewcert_check::Failure;
 use viewcert_formats::folder::Listing;
 use viewcert_report::{overview_page, screen};
 use viewcert_session::Session;
 use viewcert_session::exit::TooLarge;
+
+/// What is asked in a session of its own.
+fn asked<T: Send + 'static>(
+    py: Python<'_>,
+    work: impl FnOnce(&Session) -> anyhow::Result<T> + Send + 'static,
+) -> PyResult<T> {
+    let job = Job::new(py)?;
+    let session = Session::under(job.watch());
+    job.answer(py, move || work(&session))
+}
 
 /// What pairs and tracks of an input determine: `kind` is `json`, `text`, `all` or `html`.
 #[pyfunction]
@@ -29,27 +34,23 @@ pub(crate) fn overview<'py>(
     kind: String,
 ) -> PyResult<Bound<'py, PyBytes>> {
     let [options, of_tracks] = reading.options()?;
-    let asked = whole::Asked {
+    let wish = viewcert_ask::overview::Asked {
         options,
         of_tracks,
         of_tracks_alone: reading.of_tracks_alone(),
     };
-    let job = Job::new(py)?;
-    let session = Session::under(job.watch());
-    let work = move || {
-        let mut out = Vec::new();
-        asked.of(&session, &path, |found| {
+    let found = asked(py, move |session| {
+        wish.of(session, &path, |found| {
+            let mut out = Vec::new();
             match &*kind {
                 "json" => found.write_json(&mut out)?,
-                "text" => screen::write(&mut out, found, false)?,
-                "all" => screen::write(&mut out, found, true)?,
-                _ => out = overview_page::html(found, found.joints)?,
+                "html" => out = overview_page::html(found, found.joints)?,
+                _ => screen::write(&mut out, found, kind == "all")?,
             }
-            Ok(())
-        })?;
-        Ok(out)
-    };
-    bytes_of(py, &job, work)
+            Ok(out)
+        })
+    })?;
+    Ok(PyBytes::new(py, &found))
 }
 
 /// What lists of images determine, and what their overlaps fix, as JSON and as text.
@@ -62,22 +63,18 @@ pub(crate) fn lists(
 ) -> PyResult<Said> {
     let [options, of_tracks] = reading.options()?;
     let of_tracks_alone = reading.of_tracks_alone();
-    let job = Job::new(py)?;
-    let session = Session::under(job.watch());
-    let work = move || -> anyhow::Result<Said> {
-        let asked = lists_of::Asked {
+    asked(py, move |session| {
+        let wish = viewcert_ask::lists::Asked {
             graph: &graph,
             files: &files,
             options,
             of_tracks,
             of_tracks_alone,
         };
-        asked.of(&session, |report| {
+        wish.of(session, |report| {
             said(|out| report.write_json(out), |out| report.write(out))
         })
-    };
-    let found = job.run(py, work)?;
-    found.map_err(|error| of_any(&error))
+    })
 }
 
 /// What two models share, and how well it fits, as JSON and as text.
@@ -90,20 +87,16 @@ pub(crate) fn merge(
     reading: Reading,
 ) -> PyResult<Said> {
     let [_, options] = reading.options()?;
-    let job = Job::new(py)?;
-    let session = Session::under(job.watch());
-    let work = move || -> anyhow::Result<Said> {
-        let asked = models::Asked {
+    asked(py, move |session| {
+        let wish = viewcert_ask::merge::Asked {
             models: [&one, &other],
             database: database.as_deref(),
             options,
         };
-        asked.of(&session, |report| {
+        wish.of(session, |report| {
             said(|out| report.write_json(out), |out| report.write(out))
         })
-    };
-    let found = job.run(py, work)?;
-    found.map_err(|error| of_any(&error))
+    })
 }
 
 /// How many measured motions cannot all be right, as JSON and as text.
@@ -113,72 +106,43 @@ pub(crate) fn contradictions(
     path: PathBuf,
     angle: u32,
     certificate: Option<PathBuf>,
-) -> PyResult<(String, String)> {
-    let job = Job::new(py)?;
-    let session = Session::under(job.watch());
-    let work = move || -> anyhow::Result<(String, String)> {
-        let asked = motions::Asked {
+) -> PyResult<Said> {
+    asked(py, move |session| {
+        let wish = viewcert_ask::contradictions::Asked {
             file: &path,
             angle,
             certificate: certificate.as_deref(),
         };
-        let (mut json, mut text) = (Vec::new(), Vec::new());
-        asked.of(&session, |report| {
-            report.write_json(&mut json)?;
-            Ok(report.write(&mut text)?)
-        })?;
-        Ok((String::from_utf8(json)?, String::from_utf8(text)?))
-    };
-    let found = job.run(py, work)?;
-    found.map_err(|error| of_any(&error))
+        wish.of(session, |report| {
+            said(|out| report.write_json(out), |out| report.write(out))
+        })
+    })
 }
 
-/// What came of an archive of certificates.
-#[pyclass(frozen, get_all, module = "viewcert._native")]
-pub(crate) struct Archive {
-    /// How many were verified.
-    verified: usize,
-    /// File, line and reason of those that were rejected.
-    rejected: Vec<(String, u64, String)>,
-    /// The same of those that take more than the limits allow.
-    undecided: Vec<(String, u64, String)>,
-    /// How many graphs those are about that were verified.
-    graphs: usize,
-    /// How many prove each verdict.
-    verdicts: BTreeMap<String, u64>,
-    /// How many suppose anything besides their graphs.
-    supposing: usize,
-    /// Whether all is there that manifests name; nothing without one.
-    complete: Option<bool>,
-    /// What the manifests say, in words.
-    manifest: Vec<String>,
-    /// Files that are neither certificates nor in a manifest, and why they are not looked into.
-    skipped: Vec<(String, String)>,
-}
-
-/// Verifies all certificates of a file or folder.
+/// Verifies all certificates of a file or folder: what came of it, by the names of `viewcert.Archive`. Of those
+/// that are not verified file, line and reason.
 #[pyfunction]
-pub(crate) fn check_all(py: Python<'_>, path: PathBuf) -> PyResult<Archive> {
+pub(crate) fn check_all(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyDict>> {
     let job = Job::new(py)?;
     let (teller, stop) = (job.told(), job.unobserved());
-    let work = move || -> anyhow::Result<Archive> {
+    let (found, listing, rejected, too_large) = job.answer(py, move || {
         let listing = Listing::new(&path)?;
         anyhow::ensure!(
             !listing.files.is_empty(),
             "{}: no certificates (.json, .jsonl, .jsonl.gz); name a folder that has some, or the files",
             path.display()
         );
-        let (mut rejected, mut undecided) = (Vec::new(), Vec::new());
+        let (mut rejected, mut too_large) = (Vec::new(), Vec::new());
         let found = check_archive(&listing, &Terms::default(), &mut |news| {
             match news {
                 News::File(_) => (),
                 News::Done(more) => teller.counted("certificates", more),
                 News::NotVerified(file, line, failure) => {
-                    let file = file.display().to_string();
-                    match failure {
-                        Failure::Rejected(why) => rejected.push((file, line, why.to_string())),
-                        Failure::TooLarge(why) => undecided.push((file, line, why.to_string())),
-                    }
+                    let (list, why) = match failure {
+                        Failure::Rejected(why) => (&mut rejected, why.to_string()),
+                        Failure::TooLarge(why) => (&mut too_large, why.to_string()),
+                    };
+                    list.push((file.display().to_string(), line, why));
                 }
             }
             match stop.stopped() {
@@ -186,30 +150,28 @@ pub(crate) fn check_all(py: Python<'_>, path: PathBuf) -> PyResult<Archive> {
                 Some(_) => Err(TooLarge("the time limit was reached".into()).into()),
             }
         })?;
-        let skipped = listing.skipped.iter();
-        let skipped = skipped.map(|(path, why)| (path.display().to_string(), (*why).to_owned()));
-        let (complete, manifest) = match found.completeness {
-            Some(said) => (Some(said.complete), said.lines),
-            None => (None, Vec::new()),
-        };
-        let mut verdicts = BTreeMap::new();
-        for (statement, count) in &found.statements {
-            *verdicts.entry(statement.verdict.clone()).or_default() += count;
-        }
-        let supposing = found.statements.iter();
-        let supposing = supposing.filter(|(statement, _)| !statement.supposed.is_empty());
-        Ok(Archive {
-            verified: found.verified,
-            rejected,
-            undecided,
-            graphs: found.graphs,
-            verdicts,
-            supposing: supposing.map(|(_, count)| *count as usize).sum(),
-            complete,
-            manifest,
-            skipped: skipped.collect(),
-        })
+        Ok((found, listing, rejected, too_large))
+    })?;
+    let (mut verdicts, mut supposing) = (BTreeMap::<_, u64>::new(), 0);
+    for (statement, count) in found.statements {
+        supposing += count * u64::from(!statement.supposed.is_empty());
+        *verdicts.entry(statement.verdict).or_default() += count;
+    }
+    let (complete, manifest) = match found.completeness {
+        Some(said) => (Some(said.complete), said.lines),
+        None => (None, Vec::new()),
     };
-    let found = job.run(py, work)?;
-    found.map_err(|error| of_any(&error))
+    let skipped = listing.skipped.iter();
+    let skipped = skipped.map(|(path, why)| (path.display().to_string(), *why));
+    let said = PyDict::new(py);
+    said.set_item("verified", found.verified)?;
+    said.set_item("rejected", rejected)?;
+    said.set_item("too_large", too_large)?;
+    said.set_item("graphs", found.graphs)?;
+    said.set_item("verdicts", verdicts)?;
+    said.set_item("supposing", supposing)?;
+    said.set_item("complete", complete)?;
+    said.set_item("manifest", manifest)?;
+    said.set_item("skipped", skipped.collect::<Vec<_>>())?;
+    Ok(said)
 }

@@ -1,9 +1,8 @@
 //! Graphs: from arrays, and from files.
 
-use crate::errors::{InputError, of_reading};
+use crate::errors::InputError;
 use crate::work::{self, Job};
-use numpy::ndarray::ArrayView2;
-use numpy::{Element, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyList;
 use std::path::PathBuf;
@@ -12,14 +11,18 @@ use std::sync::Arc;
 use viewcert::certificate::hex;
 use viewcert::graph::{Labels, sha256};
 use viewcert_formats::colmap::Pipeline;
-use viewcert_formats::{
-    ListOptions, NamedGraph, ReadError, ReadOptions, TrackOptions, pairs, read_graphs,
-};
+use viewcert_formats::{ListOptions, NamedGraph, ReadOptions, TrackOptions, pairs, read_graphs};
 use viewcert_report::scene::Scene;
 
 /// A graph with its labels and notes.
 #[pyclass(frozen, module = "viewcert._native")]
 pub(crate) struct Graph(pub(crate) Arc<NamedGraph>);
+
+impl Graph {
+    fn new(input: NamedGraph) -> Self {
+        Self(Arc::new(input))
+    }
+}
 
 #[pymethods]
 impl Graph {
@@ -89,96 +92,42 @@ impl Graph {
 
     /// The pairs of node numbers, an array of shape (m, 2).
     fn pairs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<u32>>> {
-        pair_array(py, self.0.graph.edges())
+        let pairs = self.0.graph.edges();
+        let flat: Vec<u32> = pairs.iter().flat_map(|&(i, j)| [i, j]).collect();
+        PyArray1::from_vec(py, flat).reshape([pairs.len(), 2])
     }
 
     /// The graph as SVG.
     fn picture(&self, py: Python<'_>) -> PyResult<String> {
         let input = Arc::clone(&self.0);
-        work::run(py, move || Scene::plain(&input).svg(true))
+        Job::new(py)?.run(py, move || Scene::plain(&input).svg(true))
     }
-}
-
-/// Pairs as an array of shape (k, 2).
-pub(crate) fn pair_array<'py>(
-    py: Python<'py>,
-    pairs: &[(u32, u32)],
-) -> PyResult<Bound<'py, PyArray2<u32>>> {
-    let flat: Vec<u32> = pairs.iter().flat_map(|&(i, j)| [i, j]).collect();
-    numpy::PyArray1::from_vec(py, flat).reshape([pairs.len(), 2])
 }
 
 /// The graph of an array of shape (m, 2) with integers; its nodes are those that occur.
 #[pyfunction]
 pub(crate) fn graph_of_integers(
     py: Python<'_>,
-    pairs: &Bound<'_, PyAny>,
+    pairs: PyReadonlyArray2<'_, u64>,
     name: String,
 ) -> PyResult<Graph> {
-    let found = if let Ok(pairs) = pairs.extract() {
-        integers::<i64>(py, &pairs)
-    } else if let Ok(pairs) = pairs.extract() {
-        integers::<u64>(py, &pairs)
-    } else if let Ok(pairs) = pairs.extract() {
-        integers::<i32>(py, &pairs)
-    } else {
-        integers::<u32>(py, &pairs.extract()?)
-    }?;
-    let build = move || match found {
-        Integers::Short(found) => pairs::of_integers(&name, found),
-        Integers::Long(found) => pairs::of_long_integers(&name, &found),
-    };
-    graph(work::run(py, build)?)
-}
-
-enum Integers {
-    Short(Vec<(u32, u32)>),
-    /// At least one does not fit into 32 bits.
-    Long(Vec<(u64, u64)>),
-}
-
-fn integers<T>(py: Python<'_>, pairs: &PyReadonlyArray2<'_, T>) -> PyResult<Integers>
-where
-    T: Element + Copy + Send + Sync + std::fmt::Display + TryInto<u32> + TryInto<u64>,
-{
-    let view = pairs.as_array();
-    let found = work::briefly(py, || {
-        if let Some(pairs) = all(&view) {
-            return Ok(Integers::Short(pairs));
-        }
-        if let Some(pairs) = all(&view) {
-            return Ok(Integers::Long(pairs));
-        }
-        let negative = |value: &T| TryInto::<u64>::try_into(*value).is_err();
-        let row = view
-            .rows()
-            .into_iter()
-            .position(|row| row.iter().any(negative));
-        Err(row.unwrap_or(0))
+    let flat = pairs.as_slice()?;
+    let (short, long) = work::briefly(py, || match all(flat) {
+        Some(short) => (short, None),
+        None => (Vec::new(), all(flat)),
     })?;
-    found.map_err(|row| {
-        let (a, b) = (view[[row, 0]], view[[row, 1]]);
-        InputError::new_err(format!(
-            "row {row} of the pairs is ({a}, {b}): the numbers of images are not negative; leave \
-             out rows that stand for no pair"
-        ))
-    })
+    let build = move || match long {
+        None => Ok(pairs::of_integers(&name, short)?),
+        Some(long) => Ok(pairs::of_long_integers(&name, &long)?),
+    };
+    Job::new(py)?.answer(py, build).map(Graph::new)
 }
 
-/// All pairs as other integers, if they fit.
-pub(crate) fn all<T: Copy + TryInto<U>, U>(view: &ArrayView2<'_, T>) -> Option<Vec<(U, U)>> {
-    let pair = |a: T, b: T| Some((a.try_into().ok()?, b.try_into().ok()?));
-    match view.as_slice() {
-        Some(flat) => flat
-            .chunks_exact(2)
-            .map(|row| pair(row[0], row[1]))
-            .collect(),
-        None => view
-            .rows()
-            .into_iter()
-            .map(|row| pair(row[0], row[1]))
-            .collect(),
-    }
+/// The rows of an array of shape (m, 2) as other integers, if all fit.
+pub(crate) fn all<T: Copy + TryInto<U>, U>(flat: &[T]) -> Option<Vec<(U, U)>> {
+    let pairs = flat.as_chunks().0.iter();
+    let pairs = pairs.map(|&[a, b]| Some((a.try_into().ok()?, b.try_into().ok()?)));
+    pairs.collect()
 }
 
 /// The graph on `nodes` nodes with an array of shape (m, 2) of node numbers. Labels are `names`, or
@@ -203,38 +152,20 @@ pub(crate) fn graph_of_nodes(
         (None, Some(integers)) => Labels::Integers(integers),
         (None, None) => Labels::Numbers { first: 0 },
     };
-    let given = match &labels {
-        Labels::Names(names) => names.len(),
-        Labels::Integers(integers) => integers.len(),
-        _ => nodes as usize,
-    };
-    if given != nodes as usize {
-        return Err(InputError::new_err(format!(
-            "{given} labels for {nodes} nodes"
-        )));
-    }
-    let view = pairs.as_array();
-    let found = work::briefly(py, || all(&view))?.unwrap_or_default();
-    if let Some(given) = inliers.as_ref().map(Vec::len)
-        && given != found.len()
-    {
-        return Err(InputError::new_err(format!(
-            "{given} numbers of inliers for {} pairs",
-            found.len()
-        )));
-    }
+    let flat = pairs.as_slice()?;
+    let found = work::briefly(py, || all(flat))?.unwrap_or_default();
     let build = move || match inliers {
-        None => pairs::of_nodes(&name, nodes, labels, found),
-        Some(inliers) => pairs::with_inliers(&name, nodes, labels, found, &inliers, min_inliers),
+        None => Ok(pairs::of_nodes(&name, nodes, labels, found)?),
+        Some(inliers) => Ok(pairs::with_inliers(
+            &name,
+            nodes,
+            labels,
+            found,
+            &inliers,
+            min_inliers,
+        )?),
     };
-    graph(work::run(py, build)?)
-}
-
-fn graph(built: Result<NamedGraph, ReadError>) -> PyResult<Graph> {
-    match built {
-        Ok(graph) => Ok(Graph(Arc::new(graph))),
-        Err(error) => Err(of_reading(&error)),
-    }
+    Job::new(py)?.answer(py, build).map(Graph::new)
 }
 
 /// How pairs and tracks of a file are read: a `dict` in Python.
@@ -272,9 +203,8 @@ impl Reading {
     pub(crate) fn options(&self) -> PyResult<[ReadOptions; 2]> {
         let pipeline = match self.pipeline.as_deref() {
             None => None,
-            Some("incremental") => Some(Pipeline::Incremental),
             Some("global") => Some(Pipeline::Global),
-            Some(other) => return Err(wrong("pipeline", &format!("there is no {other:?}"))),
+            Some(_) => Some(Pipeline::Incremental),
         };
         let pairs = ReadOptions {
             format: parsed("format", self.format.as_deref())?,
@@ -303,17 +233,13 @@ impl Reading {
     }
 }
 
-fn wrong(name: &str, why: &dyn std::fmt::Display) -> PyErr {
-    InputError::new_err(format!("{name}: {why}"))
-}
-
 /// What the text of an argument stands for.
 fn parsed<T: FromStr<Err: std::fmt::Display>>(
     name: &str,
     text: Option<&str>,
 ) -> PyResult<Option<T>> {
     let parsed = text.map(str::parse).transpose();
-    parsed.map_err(|error| wrong(name, &error))
+    parsed.map_err(|error| InputError::new_err(format!("{name}: {error}")))
 }
 
 /// The graphs of a file, with another name for it where it is there for a moment only.
@@ -334,13 +260,9 @@ pub(crate) fn read(
                 *text = text.replace(&shown, name);
             }
         }
-        Graph(Arc::new(graph))
+        Graph::new(graph)
     };
-    let read = Job::new(py)?.run(py, move || {
-        read_graphs(path, &options).collect::<Result<Vec<_>, _>>()
-    })?;
-    match read {
-        Ok(graphs) => Ok(graphs.into_iter().map(called).collect()),
-        Err(error) => Err(of_reading(&error)),
-    }
+    let read = move || Ok(read_graphs(path, &options).collect::<Result<Vec<_>, _>>()?);
+    let read = Job::new(py)?.answer(py, read)?;
+    Ok(read.into_iter().map(called).collect())
 }

@@ -1,6 +1,6 @@
 //! Pairs that arrive one by one.
 
-use crate::errors::{InputError, of_deciding};
+use crate::errors::{InputError, of_any};
 use crate::work::{Job, briefly};
 use pyo3::prelude::*;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -27,12 +27,11 @@ impl Growing {
     ) -> PyResult<T> {
         let job = Job::new(py)?;
         let (verifier, watch) = (Arc::clone(&self.0), job.watch());
-        let answer = job.run(py, move || {
+        job.answer(py, move || {
             let mut verifier = verifier.lock().unwrap_or_else(PoisonError::into_inner);
             verifier.set_watch(watch);
-            question(&mut verifier)
-        })?;
-        answer.map_err(|error| of_deciding(&error))
+            Ok(question(&mut verifier)?)
+        })
     }
 }
 
@@ -44,7 +43,7 @@ impl Growing {
             .parse()
             .map_err(|error| InputError::new_err(format!("model={model:?}: {error}")))?;
         let verifier = Verifier::new(Options::default().model(model).seed(seed));
-        let verifier = verifier.map_err(|error| of_deciding(&error))?;
+        let verifier = verifier.map_err(|error| of_any(&error.into()))?;
         Ok(Self(Arc::new(Mutex::new(verifier))))
     }
 

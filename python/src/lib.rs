@@ -14,9 +14,7 @@ mod errors;
 mod files;
 mod graph;
 mod incremental;
-mod matrices;
 mod pickled;
-mod places;
 mod program;
 mod scenes;
 mod studies;
@@ -28,35 +26,21 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _native {
     #[pymodule_export]
-    use super::all::decide_all;
-    #[pymodule_export]
-    use super::at_cameras::{AtCameras, Cameras, VerifiedAtCameras, check_at_cameras};
-    #[pymodule_export]
-    use super::catalog::{Candidates, label, label_graph6};
-    #[pymodule_export]
-    use super::check::{Verified, VerifiedIntrinsics, check, check_intrinsics};
-    #[pymodule_export]
-    use super::decided::{Decided, decide};
-    #[pymodule_export]
-    use super::files::{Archive, check_all, contradictions, lists, merge, overview};
-    #[pymodule_export]
-    use super::graph::{Graph, graph_of_integers, graph_of_nodes, read};
-    #[pymodule_export]
-    use super::incremental::Growing;
-    #[pymodule_export]
-    use super::matrices::rigidity_matrix;
-    #[pymodule_export]
-    use super::pickled::{about_graph, graph_kept, same_graph};
-    #[pymodule_export]
-    use super::places::{component_of_pairs, pairs_among};
-    #[pymodule_export]
-    use super::program::{run_checker, run_verify};
-    #[pymodule_export]
-    use super::scenes::{drawing, witness};
-    #[pymodule_export]
-    use super::studies::{Claims, audit, audit_at_cameras, models, singular_value};
-    #[pymodule_export]
-    use super::work::{bytes_of, seconds_of};
+    use super::{
+        all::decide_all,
+        at_cameras::{AtCameras, Cameras},
+        catalog::{candidates, entries, label, label_graph6},
+        check::check,
+        decided::{Decided, decide},
+        files::{check_all, contradictions, lists, merge, overview},
+        graph::{Graph, graph_of_integers, graph_of_nodes, read},
+        incremental::Growing,
+        pickled::{about_graph, graph_kept, same_graph},
+        program::{run_checker, run_verify},
+        scenes::{drawing, witness},
+        studies::{Claims, audit, audit_at_cameras, singular_value},
+        work::{bytes_of, seconds_of},
+    };
 
     use super::*;
 

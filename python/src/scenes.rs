@@ -1,8 +1,7 @@
 //! Other solutions to look at, and where a graph is drawn.
 
 use crate::decided::Decided;
-use crate::errors::of_any;
-use crate::work::{self, Job};
+use crate::work::Job;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use viewcert_report::scene::Scene;
@@ -27,8 +26,7 @@ pub(crate) fn witness(
         write_witness(&mut out, &input, &found)?;
         Ok((Some(String::from_utf8(out)?), ("", String::new())))
     };
-    let found: anyhow::Result<_> = Job::new(py)?.run(py, work)?;
-    found.map_err(|error| of_any(&error))
+    Job::new(py)?.answer(py, work)
 }
 
 /// Where the program draws each node, an array of shape (n, 2), x to the right and y down; and the colour of
@@ -40,7 +38,7 @@ pub(crate) fn drawing<'py>(
     decided: &Decided,
 ) -> PyResult<Option<(Bound<'py, PyArray2<f64>>, Vec<&'static str>)>> {
     let (input, verdict) = decided.answer();
-    let found = work::run(py, move || {
+    let found = Job::new(py)?.run(py, move || {
         let scene = Scene::new(&input, &verdict);
         // Of cameras and points the program draws the cameras alone.
         let points = scene.points().filter(|_| input.cameras.is_none())?;

@@ -1,10 +1,10 @@
-//! Models side by side, floating point beside the exact verdict, and the claims of others.
+//! Floating point beside the exact verdict, and the claims of others.
 //!
 //! In: graphs and verdicts. Out: what the report crate says, as JSON and as text.
 
 use crate::at_cameras::AtCameras;
 use crate::decided::{Decided, Wanted};
-use crate::errors::{InputError, TooLarge, of_any, of_deciding};
+use crate::errors::{InputError, TooLarge, of_any};
 use crate::graph::Graph;
 use crate::work::{self, Job};
 use anyhow::anyhow;
@@ -12,17 +12,12 @@ use pyo3::prelude::*;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
-use viewcert::Verdict;
 use viewcert::linalg::rational::Rational;
-use viewcert::watch::Watch;
 use viewcert_audit::at_cameras::{SigmaError, read_table, ruled, sigma};
 use viewcert_audit::enclosure::Matrix;
 use viewcert_audit::table::{BadRow, Row};
 use viewcert_audit::{Beside, Options as FloatOptions, claims};
-use viewcert_formats::NamedGraph;
-use viewcert_report::assumptions::{Asked, Scope};
 use viewcert_report::audit::{AtCameras as AtCamerasReport, Audit, Ruled};
-use viewcert_report::models as model_report;
 
 /// What is said for programs, as JSON, and for people.
 pub(crate) type Said = (String, String);
@@ -36,30 +31,6 @@ pub(crate) fn said(
     json(&mut of_json)?;
     text(&mut of_text)?;
     Ok((String::from_utf8(of_json)?, String::from_utf8(of_text)?))
-}
-
-/// Verdicts on one graph, from the model that determines least to the one that determines most.
-#[pyfunction]
-pub(crate) fn models(py: Python<'_>, decided: Vec<Py<Decided>>) -> PyResult<Said> {
-    let answers: Vec<_> = decided.iter().map(|one| one.get().answer()).collect();
-    let order = answers.iter().map(|(_, verdict)| verdict.model);
-    if !order.eq(model_report::ORDER) {
-        return Err(InputError::new_err("models go from affine to calibrated"));
-    }
-    let found = work::run(py, move || {
-        let scoped = |(input, verdict): &(Arc<NamedGraph>, Arc<Verdict>)| -> anyhow::Result<_> {
-            let scope = Scope::new(input, verdict, Asked::default(), &Watch::default())?;
-            Ok((Verdict::clone(verdict), scope))
-        };
-        let verdicts: anyhow::Result<Vec<_>> = answers.iter().map(scoped).collect();
-        let verdicts = verdicts?;
-        let (input, changes) = (&*answers[0].0, model_report::all_changes(&verdicts));
-        said(
-            |out| model_report::json(out, input, &verdicts, &changes),
-            |out| model_report::text(out, input, &verdicts, &changes),
-        )
-    })?;
-    found.map_err(|error| of_any(&error))
 }
 
 /// Floating point beside a verdict of the projective model.
@@ -90,8 +61,7 @@ pub(crate) fn audit(
         };
         said(|out| found.write_json(out), |out| found.write_text(out))
     };
-    let found: anyhow::Result<_> = job.run(py, work)?;
-    found.map_err(|error| of_any(&error))
+    job.answer(py, work)
 }
 
 /// A table of claims.
@@ -141,10 +111,10 @@ impl Claims {
         let wanted = wanted.of_model(claim.model().name());
         let (job, line) = (Job::new(py)?, found.line);
         let options = wanted.options(viewcert::Known::default(), job.watch());
-        let options = options.map_err(InputError::new_err)?;
+        let options = options.map_err(|error| of_any(&error))?;
         let (start, asked) = (Instant::now(), Arc::clone(&input));
-        let decided = job.run(py, move || claims::ruled(&claim, &asked, &options))?;
-        let (ruling, exact) = decided.map_err(|error| of_deciding(&error))?;
+        let decide = move || Ok(claims::ruled(&claim, &asked, &options)?);
+        let (ruling, exact) = job.answer(py, decide)?;
         let ruled = Ruled {
             number: row + 1,
             line,

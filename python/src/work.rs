@@ -11,7 +11,7 @@
 
 #![expect(clippy::disallowed_methods, reason = "this is where threads come from")]
 
-use crate::errors::{InputError, TooLarge};
+use crate::errors::{InputError, TooLarge, of_any};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
@@ -48,14 +48,6 @@ impl Job {
     /// # Errors
     /// Limits that cannot be.
     pub(crate) fn new(py: Python<'_>) -> PyResult<Self> {
-        Self::telling(py, Told::default())
-    }
-
-    /// The same, with what is told of the work beforehand.
-    ///
-    /// # Errors
-    /// As there.
-    pub(crate) fn telling(py: Python<'_>, told: Told) -> PyResult<Self> {
         let around = py.import("viewcert._limits")?.getattr("around")?.call0()?;
         let (seconds, memory, progress): (Option<f64>, Option<u64>, _) = around.extract()?;
         let time = seconds.map(Duration::try_from_secs_f64).transpose();
@@ -69,7 +61,7 @@ impl Job {
                 deadline: time.and_then(|time| Instant::now().checked_add(time)),
                 memory: memory.or_else(viewcert_session::default_memory_limit),
             }),
-            told: Arc::new(told),
+            told: Arc::default(),
             progress,
         })
     }
@@ -131,7 +123,7 @@ impl Job {
             let _ = sender.send(work());
         });
         let receiver = Mutex::new(receiver);
-        let wait = |time| beside(py, || unpoisoned(&receiver).recv_timeout(time));
+        let wait = |time| py.detach(|| unpoisoned(&receiver).recv_timeout(time));
         let look = || {
             py.check_signals()?;
             match &self.progress {
@@ -173,6 +165,20 @@ impl Job {
     }
 }
 
+impl Job {
+    /// Does work that may fail.
+    ///
+    /// # Errors
+    /// As [`Job::run`]; those of the work.
+    pub(crate) fn answer<T: Send + 'static>(
+        &self,
+        py: Python<'_>,
+        work: impl FnOnce() -> anyhow::Result<T> + Send + 'static,
+    ) -> PyResult<T> {
+        self.run(py, work)?.map_err(|error| of_any(&error))
+    }
+}
+
 /// The seconds of a limit such as `5m`, as the program takes it; nothing if it is none.
 #[pyfunction]
 pub(crate) fn seconds_of(text: &str) -> Option<f64> {
@@ -187,23 +193,6 @@ pub(crate) fn bytes_of(text: &str) -> Option<u64> {
     Some(limit.bytes())
 }
 
-/// Work that nobody limits, and that Ctrl-C stops all the same.
-///
-/// # Errors
-/// As of [`Job::run`].
-pub(crate) fn run<T: Send + 'static>(
-    py: Python<'_>,
-    work: impl FnOnce() -> T + Send + 'static,
-) -> PyResult<T> {
-    let job = Job {
-        threads: threads(py)?,
-        watch: Watch::default(),
-        told: Arc::default(),
-        progress: None,
-    };
-    job.run(py, work)
-}
-
 /// Work of a moment, which nobody interrupts: it may borrow.
 ///
 /// # Errors
@@ -211,21 +200,6 @@ pub(crate) fn run<T: Send + 'static>(
 pub(crate) fn briefly<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
     let threads = threads(py)?;
     Ok(py.detach(|| threads.install(work)))
-}
-
-/// Waiting, without the interpreter's lock, for what others compute.
-pub(crate) fn beside<T: Send>(py: Python<'_>, wait: impl FnOnce() -> T + Send) -> T {
-    py.detach(wait)
-}
-
-/// Work that goes on while the interpreter does, on threads of its own, as it may wait there for whoever
-/// takes what it finds.
-///
-/// # Errors
-/// If threads cannot be had.
-pub(crate) fn aside(work: impl FnOnce() + Send + 'static) -> PyResult<()> {
-    pool(0).map_err(none_left)?.spawn(work);
-    Ok(())
 }
 
 /// The threads of this process.
@@ -306,20 +280,19 @@ impl State {
             self.news.push_back(news);
         }
     }
+
+    fn begin(&mut self, work: u64, what: String, total: u64) {
+        let done = 0;
+        let news = News { what, done, total };
+        self.remember(news.clone());
+        self.works.push((work, news));
+    }
 }
 
 impl Told {
-    /// Work of so many units, which are counted.
-    pub(crate) fn expecting(what: &str, total: u64) -> Self {
-        let news = News {
-            what: what.to_owned(),
-            done: 0,
-            total,
-        };
-        Self(Mutex::new(State {
-            news: VecDeque::from([news.clone()]),
-            works: vec![(0, news)],
-        }))
+    /// Work of so many units begins, which are counted.
+    pub(crate) fn expect(&self, what: &str, total: u64) {
+        unpoisoned(&self.0).begin(0, what.to_owned(), total);
     }
 
     /// Tells the callback what is new, and how far the work is that began last.
@@ -341,12 +314,7 @@ impl Told {
     pub(crate) fn counted(&self, what: &str, more: u64) {
         let mut state = unpoisoned(&self.0);
         if state.works.is_empty() {
-            let news = News {
-                what: what.to_owned(),
-                done: 0,
-                total: 0,
-            };
-            state.works.push((0, news));
+            state.begin(0, what.to_owned(), 0);
         }
         if let Some((_, news)) = state.works.last_mut() {
             news.done += more;
@@ -356,14 +324,7 @@ impl Told {
 
 impl Observer for Told {
     fn begin(&self, work: u64, stage: Stage, total: u64, _: Option<u64>) {
-        let news = News {
-            what: stage.to_string(),
-            done: 0,
-            total,
-        };
-        let mut state = unpoisoned(&self.0);
-        state.remember(news.clone());
-        state.works.push((work, news));
+        unpoisoned(&self.0).begin(work, stage.to_string(), total);
     }
 
     fn done(&self, work: u64, units: u64) {

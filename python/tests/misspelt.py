@@ -29,7 +29,6 @@ if verdict.strength == "proved":  # type: ignore[comparison-overlap]
 if viewcert.check(b"").value == "not-solvable":  # type: ignore[comparison-overlap]
     pass
 viewcert.weak(verdict, of="edges")  # type: ignore[call-overload]
-viewcert.redundant(verdict, of="image")  # type: ignore[arg-type]
 viewcert.check_all("folder", errors="ignore")  # type: ignore[arg-type]
 for entry in viewcert.catalog(5):
     if entry.value == "not-finite":  # type: ignore[comparison-overlap]

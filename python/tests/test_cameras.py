@@ -79,8 +79,8 @@ def test_calibrated_ranks_and_velocities(edges: set[tuple[int, int]], drawn: lis
         assert all(motion[node] == (0, 0, 0) for node in found.components[0])
         flat.append(vector)
     assert rank(flat) == len(flat)
-    verified = viewcert.check_at_cameras(found)
-    assert (verified.rank, verified.determined) == (found.rank, found.determined)
+    verified = viewcert.check(found)
+    assert (verified.rank, verified.value == "determined") == (found.rank, found.determined)
     assert verified.components == len(found.components)
     for special in found.special:
         of = [[*drawn[node], 1] for node in special.nodes]
@@ -109,7 +109,8 @@ def test_the_program_says_the_same(program: Program, tmp_path: pathlib.Path, mod
         made, written = json.loads(found.certificate()), json.loads(certificate)
         made["graph"].pop("name", None), written["graph"].pop("name", None)
         assert made == written
-        assert viewcert.check_at_cameras(tmp_path / "c.json", verdict, cameras).determined == found.determined
+        verified = viewcert.check(tmp_path / "c.json", verdict, cameras=cameras)
+        assert (verified.value == "determined", verified.model) == (found.determined, model)
     text = program.run(*options[:5], cwd=tmp_path).stdout
     of_cameras = [line for line in text.splitlines() if "at cameras" in line or "here" in line]
     assert len(of_cameras) >= 3 and set(of_cameras) <= set(found.report().splitlines())
@@ -149,10 +150,10 @@ def test_they_pickle_copy_and_compare() -> None:
         assert other == found
         assert other.certificate() == found.certificate()
         assert other.velocities() == found.velocities()
-    verified = viewcert.check_at_cameras(found)
+    verified = viewcert.check(found)
     assert pickle.loads(pickle.dumps(verified)) == verified
     assert repr(verified) == (
-        "<viewcert.VerifiedAtCameras not determined (proof): 3 nodes, 3 pairs, rank 14 of 18>"
+        "<viewcert.Verified not-determined (proof): projective, 3 nodes, 3 pairs, rank 14 of 18, 3 components>"
     )
 
 
@@ -173,6 +174,7 @@ def test_what_is_refused(tmp_path: pathlib.Path) -> None:
     at = {"a": (0, 0, 0), "b": (1, 0, 0), "c": (0, 1, 0)}
     for cameras, why in [
         ({"a": (0, 0, 0)}, "none for 'b' and 1 more"),
+        ({**at, "d": (1, 1, 1)}, "'d' is no node of the graph"),
         ([(0, 0, 0)], "1 are given for 3 nodes"),
         ({**at, "c": (0, 1)}, "of 'c' has the shape \\(2,\\)"),
         ({**at, "c": np.eye(4)}, "of 'c' has the shape \\(4, 4\\)"),
@@ -194,19 +196,44 @@ def test_what_is_refused(tmp_path: pathlib.Path) -> None:
         viewcert.at_cameras(viewcert.verify(TRIANGLE, parts=[["a", "b", "c"]]), at)
     found = viewcert.at_cameras(TRIANGLE, at)
     with pytest.raises(viewcert.InputError, match="give the verdict"):
-        viewcert.check_at_cameras(found, TRIANGLE, at)
+        viewcert.check(found, TRIANGLE, cameras=at)
     verdict = viewcert.verify(TRIANGLE)
     with pytest.raises(viewcert.Rejected, match="another hash"):
-        viewcert.check_at_cameras(found, verdict, {**at, "c": (0, 2, 0)})
+        viewcert.check(found, verdict, cameras={**at, "c": (0, 2, 0)})
+    with pytest.raises(viewcert.Rejected, match="cameras: it supposes cameras, and none are named"):
+        viewcert.check(found.certificate(), verdict)
+    with pytest.raises(viewcert.Rejected, match="cameras: it supposes no cameras"):
+        viewcert.check(verdict, verdict, cameras=at)
+    with pytest.raises(viewcert.Rejected, match="about the projective model, and affine is expected"):
+        viewcert.check(found.certificate(), verdict, cameras=at, model="affine")
     with pytest.raises(viewcert.Rejected, match="graph"):
-        viewcert.check_at_cameras(found, TRIANGLE[:2])
+        viewcert.check(found, TRIANGLE[:2])
     changed = json.loads(found.certificate())
     changed["claim"]["rank"]["value"] -= 1
     with pytest.raises(viewcert.Rejected, match="the rank is 18 of 18"):
-        viewcert.check_at_cameras(json.dumps(changed).encode())
+        viewcert.check(json.dumps(changed).encode())
     with pytest.raises(viewcert.TooLarge):
-        viewcert.check_at_cameras(found, max_operations=1)
-    with pytest.raises(viewcert.Rejected):
-        viewcert.check(found.certificate())
-    with pytest.raises(viewcert.Rejected):
-        viewcert.check_at_cameras(verdict.certificate())
+        viewcert.check(found, max_operations=1)
+
+
+def test_singular_values_are_enclosed() -> None:
+    graph = viewcert.verify(nx.complete_graph(4))
+    cameras = [np.random.default_rng(k).integers(-9, 10, (3, 4)) for k in range(4)]
+    found = viewcert.at_cameras(graph, cameras).singular_value(norm=10)
+    # By the definition: all cameras and fundamental matrices of Frobenius norm 10.
+    scaled = [10 * camera / np.linalg.norm(camera) for camera in cameras]
+    rows = []
+    for i, j in graph.graph.pair_indices.tolist():
+        f = viewcert.fundamental_matrix(scaled[i], scaled[j])
+        f *= 10 / np.linalg.norm(f)
+        for r, c in [(r, c) for c in range(4) for r in range(c, 4)]:
+            row = np.zeros(48)
+            for v, entries in ((i, (scaled[j].T @ f)), (j, (scaled[i].T @ f.T))):
+                for k in range(3):
+                    row[12 * v + 3 * c + k] += entries[r, k]
+                    row[12 * v + 3 * r + k] += entries[c, k]
+            rows.append(row)
+    value = np.sort(np.linalg.svd(np.array(rows), compute_uv=False))[found.place - 1]
+    assert found.matrix == "J_P" and found.place == 20
+    assert float(found.least) * (1 - 1e-9) <= value <= float(found.most) * (1 + 1e-9)
+    assert found.least <= found.most <= found.least * Fraction(1000001, 1000000)

@@ -83,14 +83,13 @@ def test_lists_are_the_programs(tmp_path: pathlib.Path, program: Program) -> Non
     found = viewcert.lists(graph, [first, second])
     (theirs,) = program.json("lists", graph, first, second)
     assert untimed(found.found) == untimed(theirs)
-    assert [one.images for one in found.lists] == [16, 16]
-    assert [one.is_whole for one in found.lists] == [one["whole"] for one in theirs["lists"]]
+    assert [one["images"] for one in found.found["lists"]] == [16, 16]
     assert found.determined == theirs["determined"]
     first.write_text("\n".join(images) + "\n")
-    assert viewcert.lists(graph, [first]).lists[0].is_whole
+    assert viewcert.lists(graph, [first]).found["lists"][0]["whole"]
     apart = tmp_path / "apart.txt"
     apart.write_text(f"{images[0]}\n{images[14]}\n")
-    assert not viewcert.lists(graph, [apart]).lists[0].is_whole
+    assert not viewcert.lists(graph, [apart]).found["lists"][0]["whole"]
     with pytest.raises(viewcert.InputError, match="list of paths"):
         viewcert.lists(graph, "first.txt")
 
@@ -100,7 +99,7 @@ def test_a_merge_is_the_programs(program: Program, data: pathlib.Path) -> None:
     found = viewcert.merge(one, other)
     (theirs,) = program.json("merge", one, other)
     assert untimed(found.found) == untimed(theirs)
-    assert found.determined and found.agree and found.disagree == ()
+    assert found.determined and found.found["misfit"]["agree"] and found.found["misfit"]["disagree"] == []
     assert not theirs["model_merger"] and "aborts" in found.report()
     with pytest.raises(viewcert.InputError, match="no folder"):
         viewcert.merge(one, other / "images.txt")

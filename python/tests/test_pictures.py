@@ -57,17 +57,6 @@ def test_too_many_nodes_to_be_drawn() -> None:
     assert len(verdict.plot(pos=nx.circular_layout(verdict.to_networkx())).collections) == 2
 
 
-def test_tikz() -> None:
-    verdict = viewcert.verify([("a_1", "b%"), ("b%", "c"), ("c", "a_1"), ("c", "d")])
-    text = verdict.to_tikz(width=5)
-    assert text.count("\\node") == 4 and text.count("\\draw") == 4
-    assert "a\\_1" in text and "b\\%" in text
-    defined = set(re.findall(r"\\definecolor{(\w+)}", text))
-    assert set(re.findall(r"\\draw\[(\w+)\]", text)) == defined
-    numbers = [tuple(map(float, found)) for found in re.findall(r"at \(([\d.]+), ([\d.]+)\)", text)]
-    assert max(np.ptp(numbers, axis=0)) == pytest.approx(5, abs=0.01)
-
-
 def test_named_examples_are_the_files() -> None:
     for name in ("courtyard", "courtyard_gaps", "facade", "house", "psi"):
         mine = viewcert.examples.graph(name)

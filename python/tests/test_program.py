@@ -128,7 +128,6 @@ def test_rational_arithmetic_and_primes(program: Program, tmp_path: pathlib.Path
     path.write_text("".join(f"{i} {j}\n" for i, j in pairs))
     options: list[tuple[list[str], dict[str, Any]]] = [
         (["--rational"], {"rational": True}),
-        (["--rational=5,4"], {"rational": True, "numerator": 5}),
         (["--prime=1000003", "--seed", "7"], {"prime": 1000003, "seed": 7}),
         (["--method", "matrix"], {"contraction": False}),
         (["--method", "ranks"], {"counting": False}),

@@ -45,9 +45,9 @@ def test_affine_cameras_are_plane_rigidity(graph: nx.Graph) -> None:
     if mine.value == "solvable":
         minimal = len(viewcert.weak(mine)) == graph.number_of_edges()
         assert minimal == other.is_min_rigid(dim=2)
-        assert (not viewcert.redundant(mine)) == other.is_k_redundantly_rigid(1, dim=2)
+        assert (not viewcert.weak(mine)) == other.is_k_redundantly_rigid(1, dim=2)
         if len(graph) > 3:
-            stays = not viewcert.redundant(mine, of="images")
+            stays = not viewcert.weak(mine, of="images")
             assert stays == other.is_k_vertex_redundantly_rigid(1, dim=2)
 
 

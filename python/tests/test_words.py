@@ -115,7 +115,6 @@ def test_what_cannot_be_asked_names_the_argument(tmp_path: pathlib.Path) -> None
     triangle = [(0, 1), (0, 2), (1, 2)]
     for ask, words in (
         (lambda: viewcert.weak(triangle, of="edges"), "of='edges': give 'pairs' or 'images'"),
-        (lambda: viewcert.redundant(triangle, of="edges"), "of='edges': give 'pairs' or 'images'"),
         (lambda: viewcert.suggest(triangle, 0), "most=0: give an integer from 1"),
         (lambda: viewcert.suggest(triangle, "3"), "most='3': give an integer"),  # type: ignore[arg-type]
         (lambda: viewcert.implied(triangle, -1), "most=-1: give an integer from 0"),

@@ -1,7 +1,7 @@
-//! A graph apart from its pairs and labels, as text that another process can take up again.
+//! A graph apart from its pairs, as text that another process can take up again.
 //!
-//! In: a graph as it was read. Out: all that was said, noted and counted of it, as JSON; and the
-//! graph again. Pairs and labels, the bulk of it, are left to whoever has better means for them. The
+//! In: a graph as it was read. Out: its labels and all that was said, noted and counted of it, as JSON; and the
+//! graph again. Pairs, the bulk of it, are left to whoever has better means for them. The
 //! text is for the same version of the program: nothing is promised of other ones.
 
 use crate::colmap::DatabaseFacts;
@@ -10,20 +10,29 @@ use crate::{Matching, NamedGraph, ReadAs};
 use serde::{Deserialize, Serialize};
 use viewcert::graph::{Graph, Labels};
 
-/// What a [`NamedGraph`] has beside graph and labels, by reference or owned.
+/// What a [`NamedGraph`] has beside its name and graph.
 #[derive(Serialize, Deserialize)]
-struct About<R, N, M, D, F> {
-    read: R,
-    notes: N,
-    matching: M,
+struct About {
+    #[serde(with = "Named")]
+    labels: Labels,
+    read: ReadAs,
+    notes: Vec<String>,
+    matching: Option<Matching>,
     cameras: Option<u32>,
-    database: D,
+    database: Option<Box<DatabaseFacts>>,
     tracks: Option<TrackFacts>,
-    frames: F,
+    frames: Option<Box<Frames>>,
 }
 
-type Owned =
-    About<ReadAs, Vec<String>, Option<Matching>, Option<Box<DatabaseFacts>>, Option<Box<Frames>>>;
+/// [`Labels`] for serde.
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Labels")]
+enum Named {
+    Numbers { first: u64 },
+    Integers(Vec<u64>),
+    Names(Vec<Box<str>>),
+    CamerasAndPoints(Vec<Box<str>>),
+}
 
 /// Why a text is not about a graph.
 #[derive(Debug, thiserror::Error)]
@@ -36,51 +45,52 @@ pub enum NotAbout {
     OtherGraph(&'static str),
 }
 
-/// All that is known of a graph beside its name, pairs and labels. O(size).
+/// All that is known of a graph beside its name and pairs. O(size).
 ///
 /// # Errors
 /// A position of an image that is not finite.
 pub fn about(input: &NamedGraph) -> Result<String, NotAbout> {
-    let about = About {
-        read: &input.read,
-        notes: &input.notes,
-        matching: &input.matching,
+    let input = input.clone();
+    Ok(serde_json::to_string(&About {
+        labels: input.labels,
+        read: input.read,
+        notes: input.notes,
+        matching: input.matching,
         cameras: input.cameras,
-        database: &input.database,
+        database: input.database,
         tracks: input.tracks,
-        frames: &input.frames,
-    };
-    Ok(serde_json::to_string(&about)?)
+        frames: input.frames,
+    })?)
 }
 
 /// The graph that a text of [`about`] is about. O(size).
 ///
 /// # Errors
 /// Another text, or that of a graph of another size.
-pub fn with_about(
-    name: String,
-    graph: Graph,
-    labels: Labels,
-    text: &str,
-) -> Result<NamedGraph, NotAbout> {
-    let about: Owned = serde_json::from_str(text)?;
+pub fn with_about(name: String, graph: Graph, text: &str) -> Result<NamedGraph, NotAbout> {
+    let about: About = serde_json::from_str(text)?;
+    let (nodes, pairs) = (graph.nodes(), graph.edges().len());
     let inliers = about
         .matching
         .as_ref()
         .map_or(0, |known| known.inliers.len());
-    if inliers != 0 && inliers != graph.edges().len() {
+    if inliers != 0 && inliers != pairs {
         return Err(NotAbout::OtherGraph("its pairs are not as many"));
     }
-    if about
-        .cameras
-        .is_some_and(|cameras| cameras as usize > graph.nodes())
-    {
-        return Err(NotAbout::OtherGraph("it has more cameras than nodes"));
+    let cameras = about.cameras.map_or(0, |cameras| cameras as usize);
+    let fits = match &about.labels {
+        Labels::Numbers { .. } => true,
+        Labels::Integers(values) => values.len() == nodes,
+        Labels::Names(names) => names.len() == nodes,
+        Labels::CamerasAndPoints(names) => names.len() <= nodes,
+    };
+    if !fits || cameras > nodes {
+        return Err(NotAbout::OtherGraph("its nodes are not as many"));
     }
     Ok(NamedGraph {
         name,
         graph,
-        labels,
+        labels: about.labels,
         read: about.read,
         notes: about.notes,
         matching: about.matching,
@@ -106,10 +116,14 @@ mod tests {
         matching.positions = vec![None, Some([0.1, -1e-300, 1.0 / 3.0]), None];
         input.frames = Some(Box::default());
         let text = about(&input).unwrap();
-        let again = |graph, text| with_about("mine".into(), graph, input.labels.clone(), text);
+        let again = |graph, text| with_about("mine".into(), graph, text);
         assert_eq!(again(input.graph.clone(), &text).unwrap(), input);
-        let other = Graph::new(3, [(0, 1)]).unwrap();
-        assert!(matches!(again(other, &text), Err(NotAbout::OtherGraph(_))));
+        for other in [Graph::new(3, [(0, 1)]), Graph::new(4, [(0, 1), (0, 3)])] {
+            assert!(matches!(
+                again(other.unwrap(), &text),
+                Err(NotAbout::OtherGraph(_))
+            ));
+        }
         let cut = &text[..text.len() - 1];
         assert!(matches!(
             again(input.graph.clone(), cut),

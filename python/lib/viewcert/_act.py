@@ -102,16 +102,6 @@ class Export(Generic[N]):
 
 
 @dataclass(frozen=True)
-class Break:
-    """A component that falls apart, without which pair (of nodes) or node it does, and how strong
-    that is: ``'proof'`` or ``'error-bound'``."""
-
-    component: int
-    without: Tuple[Any, ...]
-    strength: Strength
-
-
-@dataclass(frozen=True)
 class Implied(Generic[N]):
     """Pairs that are determined though they are not in the graph, up to finitely many values."""
 
@@ -214,41 +204,6 @@ def surplus(verdict: Any) -> Dict[Tuple[Any, Any], Dict[str, Any]]:
         pair = (a, b) if (a, b) in pairs else (b, a)
         pairs[pair].update(surplus=item["surplus"], strength=item["strength"])
     return pairs
-
-
-def redundant(verdict: Any, of: Lost = "pairs") -> List[Break]:
-    """The components that do not stay one whichever pair, or image, is lost.
-
-    Parameters
-    ----------
-    verdict : Verdict
-        Or a graph, which is decided first.
-    of : {'pairs', 'images'}
-        What is lost. Of two losses ask about the rest without each pair:
-        ``any(viewcert.redundant([p for p in pairs if p != lost]) for lost in pairs)``.
-
-    Returns
-    -------
-    list of Break
-        Each with a set that breaks it. All other components with three nodes or more stay finite
-        solvable, in the calibrated and the affine model solvable, which is proved.
-
-    Examples
-    --------
-    >>> import itertools, viewcert
-    >>> complete = list(itertools.combinations(range(5), 2))
-    >>> viewcert.redundant(complete)
-    []
-    >>> viewcert.redundant([(0, 1), (0, 2), (1, 2)])[0].without
-    ((0, 1),)
-    """
-    first: Dict[int, Weak[Any]] = {}
-    for item in weak(verdict, of):
-        first.setdefault(item.component, item)
-    return [
-        Break(component, (item.nodes,) if of == "pairs" else item.nodes, item.strength)
-        for component, item in sorted(first.items())
-    ]
 
 
 @overload

@@ -8,7 +8,7 @@ from . import _native
 from ._arguments import one_of, taking, whole_if
 from ._errors import Error, InputError
 from ._graph import Graph, as_graph
-from ._question import asked, chosen_model, of_pairs
+from ._question import asked, beside, chosen_model
 from ._types import Errors, N, Other, Question
 from ._verdict import Given, Verdict
 
@@ -100,7 +100,7 @@ def verify_all(
                 for (place, given), native in zip(given_all, decided):
                     found[place] = native
                     if not isinstance(native, Exception):
-                        found[place] = Verdict._of(given, native, of_pairs(each))
+                        found[place] = Verdict._of(given, native, {"wanted": each, "beside": beside()})
     for place, verdict in enumerate(found):
         if isinstance(verdict, Error):
             named = _named(verdict, place)

@@ -55,9 +55,3 @@ def of_said(kind: Type[_T], said: Mapping[str, Any], **given: Any) -> _T:
     members: Dict[str, Any] = {one.name: said[one.name] for one in fields(kind) if one.name in said}  # type: ignore[arg-type]
     tuples = {name: tuple(value) if isinstance(value, list) else value for name, value in members.items()}
     return kind(**{**tuples, **given})
-
-
-def of_native(kind: Type[_T], found: Any, **given: Any) -> _T:
-    """A dataclass of what a native class has, or what is given instead."""
-    names = (one.name for one in fields(kind) if one.name not in given)  # type: ignore[arg-type]
-    return kind(**{name: getattr(found, name) for name in names}, **given)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import numbers
 import os
-import random
 import sys
 from dataclasses import dataclass, field
 from decimal import Decimal
@@ -16,12 +15,11 @@ import numpy as np
 
 from . import _native
 from ._act import _decided
-from ._answers import of_native, of_said
-from ._arguments import flag, listed, whole_if
-from ._check import OfGraph, text_of
+from ._answers import of_said
+from ._arguments import flag, listed
 from ._convert import Node
-from ._errors import InputError, Rejected
-from ._graph import Graph, Path, as_graph, on_disk
+from ._errors import InputError
+from ._graph import Graph, Path, on_disk
 from ._pickled import found_of
 from ._tables import csv_of
 from ._types import Decided, Place, RulingWord, Strength
@@ -35,24 +33,6 @@ if TYPE_CHECKING:
 Cameras = Union[Mapping[Node, Any], Sequence[Any], "np.ndarray[Any, Any]", Path, "pycolmap.Reconstruction"]
 
 _Velocity = Tuple[Fraction, Fraction, Fraction]
-
-
-@dataclass(frozen=True)
-class VerifiedAtCameras(OfGraph):
-    """What a certificate at given cameras proves. It can be pickled and compared."""
-
-    determined: Annotated[bool, "Whether the cameras are determined."]
-    strength: Annotated[Strength, "How strong that and the rank are; that they are determined is always proved."]
-    error_log2: Annotated[Optional[int], "The chance of an error is at most two to this power."]
-    rank: Annotated[int, "The rank at these cameras."]
-    components: Annotated[int, "How many components there are at these cameras."]
-    model: Annotated[Decided, "The question: ``'projective'``, ``'calibrated'`` or ``'affine'``."]
-    centres_sha256: Annotated[str, "The hash of the centres, as :attr:`AtCameras.centres_sha256`."]
-
-    def __repr__(self) -> str:
-        size = f"{self.nodes} nodes, {self.edges} pairs"
-        is_so = _is(self.determined, self.strength)
-        return f"<viewcert.VerifiedAtCameras {is_so}: {size}, rank {self.rank} of {self.required}>"
 
 
 @dataclass(frozen=True)
@@ -135,7 +115,7 @@ class AtCameras:
         return found
 
     def certificate(self, *, embed_graph: bool = False) -> bytes:
-        """The certificate, which :func:`check_at_cameras` and two independent programs verify. It holds
+        """The certificate, which :func:`check` and two independent programs verify. It holds
         the cameras.
 
         Parameters
@@ -176,39 +156,6 @@ class AtCameras:
             }
             for motion in found
         ]
-
-    def random_motion(self, seed: int = 1) -> Optional[Dict[Node, Optional[_Velocity]]]:
-        """A motion that the fundamental matrices allow, exactly: a combination of :meth:`velocities` with
-        random integers from -9 to 9. None where :meth:`velocities` lists none.
-
-        Examples
-        --------
-        >>> import viewcert
-        >>> places = {"a": (0, 0, 0), "b": (1, 0, 0), "c": (1, 1, 0)}
-        >>> path = viewcert.verify([("a", "b"), ("b", "c")], model="calibrated")
-        >>> motion = viewcert.at_cameras(path, places).random_motion()
-        >>> any(any(velocity) for velocity in motion.values())
-        True
-        """
-        motions = self.velocities()
-        if not motions:
-            return None
-        draw = random.Random(seed)
-        factors = [draw.randint(-9, 9) for _ in motions]
-        if not any(factors):
-            factors[0] = 1
-        found: Dict[Node, Optional[_Velocity]] = {}
-        for node in motions[0]:
-            each = [motion[node] for motion in motions]
-            if any(velocity is None for velocity in each):
-                found[node] = None
-                continue
-            x, y, z = (
-                sum((factor * velocity[k] for factor, velocity in zip(factors, each) if velocity), Fraction(0))
-                for k in range(3)
-            )
-            found[node] = (x, y, z)
-        return found
 
     def singular_value(self, matrix: Optional[str] = None, *, norm: Any = None) -> SingularValue:
         """The smallest singular value that is not of a trivial motion, between two fractions: what floating
@@ -320,7 +267,7 @@ def at_cameras(verdict: Any, cameras: Cameras) -> AtCameras:
     [('collinear', ['a', 'b', 'c'])]
     """
     verdict = _decided(verdict)
-    at = _cameras(verdict, cameras)
+    at = cameras_of(verdict, cameras)
     native = _there(verdict, at)
     answer = json.loads(native.report("json", list_components=True))["at_cameras"]
     nodes, by_text = verdict.graph.nodes, verdict.graph._by_text()
@@ -340,61 +287,6 @@ def at_cameras(verdict: Any, cameras: Cameras) -> AtCameras:
     return found
 
 
-def check_at_cameras(
-    certificate: Union[bytes, bytearray, memoryview, Path, AtCameras],
-    graph: Any = None,
-    cameras: Optional[Cameras] = None,
-    *,
-    max_operations: Optional[int] = None,
-) -> VerifiedAtCameras:
-    """Verifies a certificate at given cameras with the independent checker.
-
-    Parameters
-    ----------
-    certificate, graph, max_operations
-        As of :func:`check`; an answer for the certificate is one of this question.
-    cameras : optional
-        The cameras it has to be about, as for :func:`at_cameras`, if a verdict is given for the graph.
-        With a graph they have to be named; without one compare `centres_sha256`.
-
-    Raises
-    ------
-    Rejected
-        If anything in it does not hold, or it is about other cameras.
-
-    Examples
-    --------
-    >>> import viewcert
-    >>> verdict = viewcert.verify([("a", "b"), ("a", "c"), ("b", "c")])
-    >>> places = {"a": (0, 0, 0), "b": (1, 0, 0), "c": (0, 1, 0)}
-    >>> certificate = viewcert.at_cameras(verdict, places).certificate()
-    >>> viewcert.check_at_cameras(certificate, verdict, places).determined
-    True
-    >>> viewcert.check_at_cameras(certificate, verdict, {**places, "c": (0, 2, 0)})
-    Traceback (most recent call last):
-    ...
-    viewcert.Rejected: centres: the cameras that are expected have another hash
-    """
-    text = text_of(certificate)
-    max_operations = whole_if("max_operations", max_operations, 0, 2**64 - 1)
-    if cameras is not None and not isinstance(graph, Verdict):
-        raise InputError(
-            "cameras: which centres they have depends on the model; give the verdict, which says both "
-            "graph and model"
-        )
-    if cameras is None and graph is not None and not isinstance(certificate, AtCameras):
-        reason = "it is about given cameras, and none are named: give the verdict for the graph, and the cameras"
-        raise Rejected("centres", reason)
-    given = None if graph is None else as_graph(graph)
-    found = _native.check_at_cameras(
-        text,
-        graph=None if given is None else given._native,
-        centres=None if cameras is None else _cameras(graph, cameras).sha256(),
-        max_operations=max_operations,
-    )
-    return of_native(VerifiedAtCameras, found)
-
-
 def _there(verdict: Verdict[Any], cameras: _native.Cameras) -> _native.AtCameras:
     return _native.AtCameras(found_of(verdict._native), cameras)
 
@@ -403,30 +295,16 @@ def _is(determined: bool, strength: Strength) -> str:
     return f"{'determined' if determined else 'not determined'} ({strength})"
 
 
-def _cameras(verdict: Verdict[Any], cameras: Cameras) -> _native.Cameras:
+def cameras_of(verdict: Verdict[Any], cameras: Cameras) -> _native.Cameras:
     """The centres of the nodes of a verdict."""
     graph, model = verdict.graph, verdict.model
-    read = _in_file(graph, cameras, model)
-    return read or _native.Cameras.of_numbers(graph._native, model, *texts_of(graph, cameras, model))
-
-
-def _in_file(graph: Graph[Any], cameras: Cameras, model: str) -> Optional[_native.Cameras]:
-    """Those of a file, a model, or a reconstruction that is open in pycolmap; or None."""
     pycolmap = sys.modules.get("pycolmap")
     is_open = pycolmap is not None and isinstance(cameras, pycolmap.Reconstruction)
-    if not is_open and not isinstance(cameras, (str, bytes, os.PathLike)):
-        return None
-    with on_disk(cameras, "cameras") as (file, name):
-        found = _native.Cameras.in_file(graph._native, model, file)
-    noted(graph.name, (note.replace(file, name or file) for note in found.notes))
-    return found
-
-
-def texts_of(graph: Graph[Any], cameras: Cameras, model: str) -> Tuple[List[str], int]:
-    """The numbers of cameras as exact texts, node by node, and how many a node has: 12 or 3."""
-    read = _in_file(graph, cameras, model)
-    if read is not None:
-        return read.numbers()
+    if is_open or isinstance(cameras, (str, bytes, os.PathLike)):
+        with on_disk(cameras, "cameras") as (file, name):
+            found = _native.Cameras.in_file(graph._native, model, file)
+        noted(graph.name, (note.replace(file, name or file) for note in found.notes))
+        return found
     nodes = graph.nodes
     if isinstance(cameras, Mapping):
         absent = [node for node in nodes if node not in cameras]
@@ -454,7 +332,7 @@ def texts_of(graph: Graph[Any], cameras: Cameras, model: str) -> Tuple[List[str]
                 "columns, or all are centres, 3 numbers"
             )
         texts.extend(_exact(number) for number in entries.ravel().tolist())
-    return texts, 12 if shapes == {(3, 4)} else 3
+    return _native.Cameras.of_numbers(graph._native, model, texts, 12 if shapes == {(3, 4)} else 3)
 
 
 def _exact(number: Any) -> str:

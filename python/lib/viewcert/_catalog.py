@@ -67,17 +67,16 @@ def catalog(
     >>> Counter(entry.value for entry in viewcert.catalog(6))
     Counter({'not-finite-solvable': 5, 'solvable': 4})
     """
-    return map(
-        _entry,
-        _native.Candidates(
-            whole("nodes", nodes, 0, 2**31 - 1),
-            edges=whole_if("edges", edges, 0, 2**31 - 1),
-            necessary=flag("necessary", necessary),
-            solutions=flag("solutions", solutions),
-            prime=whole_if("prime", prime, 5, 2**62 - 1),
-            seed=whole("seed", seed, 0, 2**64 - 1),
-        ),
+    asked = whole_if("edges", edges, 0, 2**31 - 1), flag("necessary", necessary)
+    question = (
+        flag("solutions", solutions),
+        whole_if("prime", prime, 5, 2**62 - 1),
+        whole("seed", seed, 0, 2**64 - 1),
     )
+    # What cannot be asked for is refused now and not by the first entry.
+    graphs = _native.candidates(whole("nodes", nodes, 0, 2**31 - 1), *asked)
+    batches = (graphs[first : first + 256] for first in range(0, len(graphs), 256))
+    return (_entry(found) for batch in batches for found in _native.entries(batch, *question))
 
 
 def _entry(found: tuple[list[str], bytes]) -> Entry:

@@ -157,11 +157,15 @@ def rows_of(pairs: Any) -> NDArray[Any]:
 
 
 def _of_integers(pairs: NDArray[Any], name: str) -> Converted:
-    if pairs.dtype not in (np.int64, np.uint64, np.int32, np.uint32):
-        pairs = pairs.astype(np.int64)
-    # A view into a buffer may begin between two numbers.
-    pairs = np.require(pairs, requirements="A")
-    return _native.graph_of_integers(pairs, name), None, None
+    negative = np.flatnonzero((pairs < 0).any(axis=1))
+    if len(negative):
+        row = int(negative[0])
+        raise InputError(
+            f"row {row} of the pairs is {tuple(pairs[row].tolist())}: the numbers of images are not negative; leave "
+            "out rows that stand for no pair"
+        )
+    pairs = np.ascontiguousarray(pairs, dtype=np.uint64)
+    return _native.graph_of_integers(np.require(pairs, requirements="A"), name), None, None
 
 
 def _of_rustworkx(graph: Any, name: str, wish: Wish) -> Converted:

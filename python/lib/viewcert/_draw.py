@@ -1,15 +1,14 @@
-"""Pictures for papers and notebooks: matplotlib and TikZ. Where nodes are, and the colours of components, are
+"""Pictures for papers and notebooks, by matplotlib. Where nodes are, and the colours of components, are
 those of the program's pictures."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple
+from typing import TYPE_CHECKING, Any, List, Mapping, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
-from ._convert import Node
 from ._errors import InputError, TooLarge
 from ._graph import Graph
 
@@ -95,49 +94,3 @@ def plot(
     ax.margins(0.08)
     ax.set_title(drawn.title)
     return ax
-
-
-_ESCAPES: Dict[str, str] = {
-    "\\": r"\textbackslash{}",
-    "{": r"\{",
-    "}": r"\}",
-    "_": r"\_",
-    "%": r"\%",
-    "&": r"\&",
-    "#": r"\#",
-    "$": r"\$",
-    "^": r"\textasciicircum{}",
-    "~": r"\textasciitilde{}",
-}
-
-
-def _tex(node: Node) -> str:
-    return "".join(_ESCAPES.get(letter, letter) for letter in str(node))
-
-
-def to_tikz(
-    drawn: Drawn, pos: Optional[Mapping[Any, Sequence[float]]], labels: Optional[bool], width: float
-) -> str:
-    """A graph as a picture of TikZ; see `Verdict.to_tikz`."""
-    points, colours = _placed(drawn, pos)
-    extent = np.ptp(points, axis=0).max() if len(points) else 0.0
-    points = (points - points.min(axis=0)) * (width / extent if extent else 1.0)
-    native = colours or ["#000000"]
-    used = list(dict.fromkeys(native))
-    name_of = {colour: f"viewcert{chr(ord('a') + k % 26)}{k // 26 or ''}" for k, colour in enumerate(used)}
-    lines = [rf"\definecolor{{{name}}}{{HTML}}{{{_hex(colour)}}}" for colour, name in name_of.items()]
-    lines.append(r"\begin{tikzpicture}[vertex/.style={circle, inner sep=1.6pt, draw=white, fill=#1}]")
-    named = labels if labels is not None else len(points) <= _NAMED
-    for k, (node, (x, y)) in enumerate(zip(drawn.graph.nodes, points)):
-        colour = "gray" if drawn.of_node[k] < 0 else name_of[native[drawn.of_node[k] % len(native)]]
-        label = f", label={{above right:\\scriptsize {_tex(node)}}}" if named else ""
-        lines.append(rf"  \node[vertex={colour}{label}] (v{k}) at ({x:.3f}, {y:.3f}) {{}};")
-    for (i, j), place in zip(drawn.graph.pair_indices.tolist(), drawn.of_pair):
-        lines.append(rf"  \draw[{name_of[native[place % len(native)]]}] (v{i}) -- (v{j});")
-    lines.append(r"\end{tikzpicture}")
-    return "\n".join(lines) + "\n"
-
-
-def _hex(colour: str) -> str:
-    digits = colour.lstrip("#")
-    return (digits if len(digits) == 6 else "".join(2 * digit for digit in digits)).upper()

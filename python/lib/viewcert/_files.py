@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Annotated, Any, Dict, List, Optional, Sequence, Tuple, Union, get_args
 
 from . import _native
-from ._answers import of_native, of_said
+from ._answers import of_said
 from ._arguments import listed, one_of, path_of, taking, whole
 from ._errors import InputError, Rejected, TooLarge
 from ._graph import Path, on_disk
@@ -109,25 +109,15 @@ def overview(
 
 
 @dataclass(frozen=True)
-class ListedImages:
-    """A list of images."""
+class Report:
+    """What lists of images, or two models, come to."""
 
-    file: Annotated[str, "The list."]
-    images: Annotated[int, "How many it has."]
-    is_whole: Annotated[bool, "Whether its own pairs or tracks hold all of them together, if every pair is right."]
-
-
-@dataclass(frozen=True)
-class Lists:
-    """Whether lists of images are whole, and what their overlaps fix."""
-
-    determined: Annotated[bool, "Whether every list is whole, and all are fixed against each other."]
-    lists: Annotated[Tuple[ListedImages, ...], "Each list."]
-    found: Annotated[Dict[str, Any], "What ``verify lists --json`` prints."] = field(repr=False)
+    determined: Annotated[bool, "Whether every list is whole and all are fixed against each other; or the two models."]
+    found: Annotated[Dict[str, Any], "What ``verify lists --json`` or ``verify merge --json`` prints."] = field(repr=False)
     _text: str = field(repr=False)
 
     def report(self) -> str:
-        """What ``verify lists`` prints."""
+        """What the program prints for people."""
         return self._text
 
 
@@ -136,7 +126,7 @@ def lists(
     graph: Union[Path, pycolmap.Database],
     files: Sequence[Path],
     **filters: Unpack[Filters],
-) -> Lists:
+) -> Report:
     """Says whether lists of images are whole, as COLMAP's mappers take them, and whether their overlaps fix scales.
 
     Parameters
@@ -148,6 +138,11 @@ def lists(
         The lists, a name on each line.
     **filters
         `pipeline`, `min_inliers`, `min_views`, `max_spread` and `rigs`, as of :func:`read`.
+
+    Returns
+    -------
+    Report
+        ``found["lists"]`` has for each list its ``file``, its ``images`` and whether it is ``whole``.
     """
     asked = reading(**filters)
     if isinstance(files, (str, bytes, os.PathLike)):
@@ -156,24 +151,7 @@ def lists(
     with on_disk(graph, "graph") as (path, name):
         said, text = (one.replace(path, name or path) for one in _native.lists(path, paths, asked))
     found = json.loads(said)
-    each = tuple(ListedImages(one["file"], one["images"], one["whole"]) for one in found["lists"])
-    return Lists(found["determined"], each, found, text)
-
-
-@dataclass(frozen=True)
-class Merge:
-    """What two models share, and whether they can be made one."""
-
-    determined: Annotated[bool, "Whether what they share leaves nothing free between them, if every pair is right."]
-    agree: Annotated[Optional[bool],
-        "Whether it fits, as measured in floating point; None if they share too little to contradict each other."]
-    disagree: Annotated[Tuple[str, ...], "The images that the two have at different places, the worst first."]
-    found: Annotated[Dict[str, Any], "What ``verify merge --json`` prints."] = field(repr=False)
-    _text: str = field(repr=False)
-
-    def report(self) -> str:
-        """What ``verify merge`` prints."""
-        return self._text
+    return Report(found["determined"], found, text)
 
 
 @taking(Filters, reading)
@@ -182,7 +160,7 @@ def merge(
     other: Union[Path, pycolmap.Reconstruction],
     database: Union[Path, pycolmap.Database, None] = None,
     **filters: Unpack[Filters],
-) -> Merge:
+) -> Report:
     """Says what two models of COLMAP share, whether that fixes the one against the other, and whether it fits.
 
     Parameters
@@ -193,6 +171,11 @@ def merge(
         The database of both: its tracks may fix what the models alone leave free.
     **filters
         `pipeline`, `min_inliers`, `min_views`, `max_spread` and `rigs`, as of :func:`read`.
+
+    Returns
+    -------
+    Report
+        ``found["misfit"]`` says whether it fits, as measured: ``agree``, and which images ``disagree``.
     """
     asked = reading(**filters)
     with ExitStack() as opened:
@@ -204,10 +187,7 @@ def merge(
         if name is not None:
             said, text = (words.replace(file, f"{name} `{what}`") for words in (said, text))
     found = json.loads(said)
-    misfit = found["misfit"] or {"agree": None, "disagree": ()}
-    return Merge(
-        found["determined"], misfit["agree"], tuple(image["image"] for image in misfit["disagree"]), found, text
-    )
+    return Report(found["determined"], found, text)
 
 
 @dataclass(frozen=True)
@@ -330,10 +310,11 @@ def check_all(path: Path, *, errors: Errors = "return", progress: Progress = Non
     with limits(progress=progress):
         found = _native.check_all(path_of("path", path))
 
-    def listed(items: List[Tuple[str, int, str]]) -> Tuple[NotVerified, ...]:
-        return tuple(NotVerified(file, line, in_python(reason)) for file, line, reason in items)
-
-    archive = of_native(Archive, found, rejected=listed(found.rejected), too_large=listed(found.undecided))
+    not_verified = {
+        what: tuple(NotVerified(file, line, in_python(reason)) for file, line, reason in found[what])
+        for what in ("rejected", "too_large")
+    }
+    archive = of_said(Archive, found, **not_verified)
     if errors == "raise":
         for bad in archive.rejected:
             raise Rejected(f"{bad.file}:{bad.line}", bad.reason)

@@ -135,8 +135,7 @@ class Graph(Frozen, Generic[N]):
 
     def __reduce__(self) -> Tuple[Any, ...]:
         native = self._native
-        labels, about = _native.about_graph(native)
-        kept = (native.name, native.nodes, native.pairs(), labels, about)
+        kept = (native.name, native.nodes, native.pairs(), _native.about_graph(native))
         return _restored, (kept, self._nodes, self._texts)
 
     def __len__(self) -> int:
@@ -312,10 +311,10 @@ def _restored(
     kept: Tuple[Any, ...], nodes: Optional[Sequence[Node]], texts: Optional[Sequence[str]]
 ) -> Graph[Any]:
     """A graph that was pickled."""
-    name, count, pairs, labels, about = kept
+    name, count, pairs, about = kept
     # What came over a wire may begin anywhere in a buffer.
-    pairs = np.require(pairs, requirements="A")
-    return Graph._of(_native.graph_kept(name, count, pairs, labels, about), nodes, texts)
+    pairs = np.require(pairs, requirements=["A", "C"])
+    return Graph._of(_native.graph_kept(name, count, pairs, about), nodes, texts)
 
 
 def numbered(

@@ -3,42 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Annotated, Any, Dict, Hashable, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Annotated, Any, Dict, Hashable, List, Mapping, Optional, Sequence, Tuple
 
-from . import _native
 from ._act import _asked, _decided
-from ._answers import of_native, of_said
-from ._arguments import flag, whole, whole_if
-from ._errors import InputError, Rejected
-from ._check import OfGraph, text_of
+from ._answers import of_said
+from ._arguments import flag
 from ._convert import Node
-from ._graph import Path, as_graph
-from ._types import Class, IntrinsicsValue
+from ._errors import InputError
+from ._types import Class
 from ._verdict import Verdict
-
-
-@dataclass(frozen=True)
-class VerifiedIntrinsics(OfGraph):
-    """What a certificate of intrinsics proves. It can be pickled and compared."""
-
-    value: Annotated[IntrinsicsValue, "``'metric'``, ``'not-metric'`` or ``'open'``."]
-    rank: Annotated[int, "What the generic rank is not below."]
-    rank_at_most: Annotated[int, "What it is not above."]
-    components: Annotated[Optional[List[List[int]]],
-        "Metric components, as positions in the `graph.nodes` of a verdict; None if bounds do not meet."]
-    not_determined: Annotated[Optional[List[int]],
-        "The positions of the nodes whose intrinsics are not determined; None if bounds do not meet."]
-    classes: Annotated[List[Tuple[int, Class]], "How many cameras are of which class."]
-    classes_sha256: Annotated[str, "The hash of the classes."]
-
-    def __hash__(self) -> int:
-        return hash((self.sha256, self.classes_sha256, self.value, self.rank))
-
-    def __repr__(self) -> str:
-        size = f"{self.nodes} nodes, {self.edges} pairs"
-        least, most = self.rank, self.rank_at_most
-        rank = f"{least}" if least == most else f"{least} to {most}"
-        return f"<viewcert.VerifiedIntrinsics {self.value}: {size}, rank {rank} of {self.required}>"
 
 
 @dataclass(frozen=True)
@@ -93,7 +66,7 @@ class Intrinsics:
     _sensors: Tuple[int, ...] = field(repr=False, compare=False)
 
     def certificate(self, *, embed_graph: bool = False) -> bytes:
-        """The certificate, which :func:`check_intrinsics` and two independent programs verify.
+        """The certificate, which :func:`check` and two independent programs verify.
 
         It states the classes and which nodes share intrinsics, and all of it is proved. Components and
         what is determined it claims only if bounds meet.
@@ -127,8 +100,7 @@ class Intrinsics:
             self._verdict,
             "intrinsics",
             suggest=most,
-            intrinsics=list(self._classes),
-            sensors=list(self._sensors),
+            sensors=(list(self._classes), list(self._sensors)),
         )["priors"]
         by_text = self._verdict.graph._by_text()
         return of_said(
@@ -182,9 +154,9 @@ def intrinsics(
     """
     verdict = _decided(verdict)
     nodes = verdict.graph.nodes
-    words, numbers = _sensors(nodes, classes, default, sensors or {})
+    words, numbers = sensors_of(nodes, classes, default, sensors or {})
     found = _asked(
-        verdict, "intrinsics", list_components=True, intrinsics=words, sensors=numbers
+        verdict, "intrinsics", list_components=True, sensors=(words, numbers)
     )
     by_text = verdict.graph._by_text()
     free = {by_text[text] for text in found["not_determined"]}
@@ -203,7 +175,7 @@ def intrinsics(
     )
 
 
-def _sensors(
+def sensors_of(
     nodes: Sequence[Node],
     classes: Mapping[Node, str],
     default: str,
@@ -228,67 +200,6 @@ def _sensors(
             )
         numbers.append(number)
     return words, numbers
-
-
-def check_intrinsics(
-    certificate: Union[bytes, bytearray, memoryview, Path, Intrinsics],
-    graph: Any = None,
-    classes: Optional[Mapping[Node, str]] = None,
-    default: str = "unknown",
-    sensors: Optional[Mapping[Node, Hashable]] = None,
-    *,
-    max_operations: Optional[int] = None,
-) -> VerifiedIntrinsics:
-    """Verifies a certificate of intrinsics with the independent checker.
-
-    Parameters
-    ----------
-    certificate, graph, max_operations
-        As of :func:`check`; an answer for the certificate is one of this question.
-    classes : mapping, optional
-        The classes that it has to suppose, with `default` for all other nodes, if a graph is given.
-        With a graph they have to be named; without one compare `classes_sha256`.
-    sensors : mapping, optional
-        Which nodes it has to suppose to share intrinsics, as for :func:`intrinsics`, beside `classes`.
-
-    Raises
-    ------
-    Rejected
-        If anything in it does not hold, or it is about other classes or sensors.
-
-    Examples
-    --------
-    >>> import viewcert
-    >>> triangle = [("a", "b"), ("a", "c"), ("b", "c")]
-    >>> classes = {"a": "known", "b": "focal"}
-    >>> certificate = viewcert.intrinsics(triangle, classes).certificate()
-    >>> viewcert.check_intrinsics(certificate, triangle, classes).value
-    'metric'
-    >>> viewcert.check_intrinsics(certificate, triangle, {"a": "known"})
-    Traceback (most recent call last):
-    ...
-    viewcert.Rejected: the classes that are expected have another hash
-    """
-    text = text_of(certificate)
-    max_operations = whole_if("max_operations", max_operations, 0, 2**64 - 1)
-    is_supposed = classes is not None or sensors is not None
-    if graph is None and is_supposed:
-        raise InputError(
-            "classes and sensors: their nodes are those of a graph; give the graph as well"
-        )
-    if graph is not None and not (is_supposed or isinstance(certificate, Intrinsics)):
-        raise Rejected("classes", "it supposes classes of cameras, and none are named: give them as well")
-    given = None if graph is None else as_graph(graph)
-    supposed = None
-    if given is not None and is_supposed:
-        supposed = _sensors(given.nodes, classes or {}, default, sensors or {})
-    found = _native.check_intrinsics(
-        text,
-        graph=None if given is None else given._native,
-        sensors=supposed,
-        max_operations=max_operations,
-    )
-    return of_native(VerifiedIntrinsics, found)
 
 
 def _ensure_nodes(nodes: Sequence[Node], *named: Mapping[Node, Any]) -> None:

@@ -7,51 +7,46 @@ asked for: the same question, with the same seed, has the same answer, which is 
 
 from __future__ import annotations
 
-from typing import Any, Dict, Optional, Union
+from typing import Any, Dict, Optional
 
 import numpy as np
 
 from . import _native
 from ._errors import Error
-from ._native import Decided as Found
 
 #: The question: what `_native.decide` is asked.
 Question = Dict[str, Any]
-
-#: What a native verdict has, and what its methods say without arguments.
-_MEMBERS = ("model", "value", "measured", "has_own_frame", "rank", "required", "seconds", "notes")
-_METHODS = ("only_given", "parts", "displacements", "vectors", "strengths", "components", "component_count")
 
 
 class Pickled:
     """What a native verdict says, as far as it travelled; the rest by deciding again."""
 
     def __init__(self, graph: _native.Graph, question: Question, said: Dict[str, Any]) -> None:
-        # What came over a wire may begin anywhere in a buffer.
-        members, ends = (np.require(one, requirements="A") for one in said["components"])
-        self._graph, self._question, self._said = graph, question, {**said, "components": (members, ends)}
-        self._found: Optional[Found] = None
+        self._graph, self._question, self._said = graph, question, said
+        self._found: Optional[_native.Decided] = None
 
     @staticmethod
-    def said(found: Union[Found, Pickled]) -> Dict[str, Any]:
+    def taken(found: Any) -> Dict[str, Any]:
         """All that travels."""
         if isinstance(found, Pickled):
             return found._said
-        return {
-            **{name: getattr(found, name) for name in _MEMBERS},
-            **{name: getattr(found, name)() for name in _METHODS},
-            "certificate": found.certificate(),
-            "json": found.report("json"),
-            "text": found.report("text"),
-        }
+        said: Dict[str, Any] = found.said()
+        texts = {kind: found.report(kind) for kind in ("json", "text")}
+        return {**said, **texts, "components": found.components(), "certificate": found.certificate()}
 
-    def again(self) -> Found:
+    def said(self) -> Dict[str, Any]:
+        return self._said
+
+    def components(self) -> Any:
+        # What came over a wire may begin anywhere in a buffer.
+        return tuple(np.require(one, requirements="A") for one in self._said["components"])
+
+    def again(self) -> _native.Decided:
         """What is decided again, and compared."""
         if self._found is None:
-            question = dict(self._question)
-            found = _native.decide(self._graph, question.pop("wanted"), **question)
-            said = self._said
-            same = (found.value, found.rank) == (said["value"], said["rank"])
+            found = _native.decide(self._graph, self._question["wanted"], self._question["beside"])
+            said, again = self._said, found.said()
+            same = (again["value"], again["rank"]) == (said["value"], said["rank"])
             if not same or found.certificate() != said["certificate"]:
                 raise Error(
                     "this verdict was decided by another version of viewcert, which found other "
@@ -61,9 +56,7 @@ class Pickled:
         return self._found
 
     def __getattr__(self, name: str) -> Any:
-        if name in _METHODS:
-            return lambda: self._said[name]
-        return self._said[name] if name in _MEMBERS else getattr(self.again(), name)
+        return getattr(self.again(), name)
 
     def certificate(self, *, embed_graph: bool = False, compact: bool = False) -> bytes:
         if not embed_graph and not compact:
@@ -76,6 +69,6 @@ class Pickled:
         return self.again().report(kind, list_components=list_components, **question)
 
 
-def found_of(native: Union[Found, Pickled]) -> Found:
+def found_of(native: Any) -> _native.Decided:
     """A verdict of the native part itself."""
     return native.again() if isinstance(native, Pickled) else native

@@ -5,43 +5,36 @@ from dataclasses import is_dataclass as _is_dataclass
 
 from . import examples
 from ._act import (
-    Break, Explanation, Export, Implied, Outside, Suggestion, Unused, Weak, explain, export, implied, redundant, suggest,
-    surplus, weak,
+    Explanation, Export, Implied, Outside, Suggestion, Unused, Weak, explain, export, implied, suggest, surplus, weak,
 )
 from ._all import verify_all
 from ._answers import described as _described
-from ._cameras import (
-    AtCameras, FloatRuling, SingularValue, Special, VerifiedAtCameras, at_cameras, check_at_cameras,
-)
+from ._cameras import AtCameras, FloatRuling, SingularValue, Special, at_cameras
 from ._catalog import Entry, catalog, from_label, label
 from ._check import Verified, check
 from ._errors import Error, InputError, NoteWarning, Rejected, TooLarge, Undecided
 from ._errors import answering as _answering
 from ._files import (
-    Archive, Contradictions, ListedImages, Lists, Merge, NotVerified, Overview, check_all, contradictions, lists, merge,
-    overview,
+    Archive, Contradictions, NotVerified, Overview, Report, check_all, contradictions, lists, merge, overview,
 )
 from ._graph import Graph, from_database, read, tracks_from_database, tracks_from_reconstruction
 from ._incremental import Growth, Verifier
-from ._intrinsics import Intrinsics, Prior, Priors, VerifiedIntrinsics, check_intrinsics, intrinsics
+from ._intrinsics import Intrinsics, Prior, Priors, intrinsics
 from ._limits import limits
-from ._matrices import ExactMatrix, rigidity_matrix
 from ._mend import Mended, mend
 from ._native import __version__
-from ._studies import Audit, Change, Models, Ruling, audit, audit_claims, models
+from ._studies import Audit, Ruling, audit, audit_claims
 from ._verdict import BaseLines, Joint, Planar, Solutions, Verdict, verify
 from ._witness import Witness, fundamental_matrix, witness
 
 __all__ = [
-    "Archive", "AtCameras", "Audit", "BaseLines", "Break", "Change", "Contradictions", "Entry", "Error", "ExactMatrix",
-    "Explanation", "Export", "FloatRuling", "Graph", "Growth", "Implied", "InputError", "Intrinsics", "Joint",
-    "ListedImages", "Lists", "Mended", "Models", "NotVerified", "NoteWarning", "Outside", "Overview", "Planar",
-    "Prior", "Priors", "Rejected", "Ruling", "SingularValue", "Solutions", "Special", "Suggestion", "TooLarge",
-    "Undecided", "Unused", "Verdict", "Verified", "VerifiedAtCameras", "VerifiedIntrinsics", "Verifier", "Weak",
-    "Witness", "__version__", "at_cameras", "audit", "audit_claims", "catalog", "check", "check_all",
-    "check_at_cameras", "check_intrinsics", "contradictions", "examples", "explain", "export", "from_database",
-    "from_label", "fundamental_matrix", "implied", "intrinsics", "label", "limits", "lists", "mend", "merge", "models",
-    "overview", "read", "redundant", "rigidity_matrix", "suggest", "surplus", "tracks_from_database",
+    "Archive", "AtCameras", "Audit", "BaseLines", "Contradictions", "Entry", "Error", "Explanation", "Export",
+    "FloatRuling", "Graph", "Growth", "Implied", "InputError", "Intrinsics", "Joint", "Mended", "NotVerified",
+    "NoteWarning", "Outside", "Overview", "Planar", "Prior", "Priors", "Rejected", "Report", "Ruling", "SingularValue",
+    "Solutions", "Special", "Suggestion", "TooLarge", "Undecided", "Unused", "Verdict", "Verified", "Verifier", "Weak",
+    "Witness", "__version__", "at_cameras", "audit", "audit_claims", "catalog", "check", "check_all", "contradictions",
+    "examples", "explain", "export", "from_database", "from_label", "fundamental_matrix", "implied", "intrinsics",
+    "label", "limits", "lists", "mend", "merge", "overview", "read", "suggest", "surplus", "tracks_from_database",
     "tracks_from_reconstruction", "verify", "verify_all", "weak", "witness",
 ]
 

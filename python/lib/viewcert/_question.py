@@ -19,8 +19,6 @@ def asked(
     planar: bool = False,
     solutions: Optional[Counting] = "quick",
     rational: bool = False,
-    numerator: int = 9,
-    denominator: int = 4,
     prime: Optional[int] = None,
     contraction: bool = True,
     counting: bool = True,
@@ -37,15 +35,12 @@ def asked(
         raise InputError(
             "planar=True: affine cameras have no centres that could lie in a plane; leave it out"
         )
-    bounds = None
-    if flag("rational", rational):
-        bounds = whole("numerator", numerator, 1, 100), whole("denominator", denominator, 1, 12)
     wanted = {
         "model": model or "projective",
         "seed": whole("seed", seed, 0, 2**64 - 1),
         "planar": bool(planar),
         "solutions": solutions,
-        "bounds": bounds,
+        "rational": flag("rational", rational),
         "prime": whole_if("prime", prime, 5, 2**62 - 1),
         "contraction": flag("contraction", contraction),
         "counting": flag("counting", counting),
@@ -54,9 +49,11 @@ def asked(
     return wanted, limits(time_limit=seconds, memory_limit=memory, progress=progress)
 
 
-def of_pairs(wanted: Dict[str, Any]) -> Dict[str, Any]:
-    """The question about pairs beside which nothing is known, as a verdict keeps it."""
-    return {"wanted": wanted, "parts": None, "displacements": None, "vectors": None, "one_frame": False}
+def beside(
+    parts: Any = None, displacements: Any = None, vectors: Any = None, one_frame: bool = False
+) -> Dict[str, Any]:
+    """What is known of a graph besides its pairs, as the native part takes it."""
+    return {"parts": parts, "displacements": displacements, "vectors": vectors, "one_frame": one_frame}
 
 
 def chosen_model(graph: Graph[Any], model: Optional[str]) -> str:

@@ -1,11 +1,11 @@
-"""Models side by side, floating point beside the exact verdict, claims of others."""
+"""Floating point beside the exact verdict, claims of others."""
 
 from __future__ import annotations
 
 import json
 import os
 from dataclasses import dataclass, field
-from typing import Annotated, Any, Dict, Generic, Iterator, List, Literal, Mapping, Optional, Sequence, Tuple, Union
+from typing import Annotated, Any, Dict, List, Literal, Mapping, Optional, Sequence, Union
 
 from . import _native
 from ._answers import of_said
@@ -13,14 +13,10 @@ from ._arguments import one_of, whole
 from ._errors import Error, InputError
 from ._graph import Graph, Path, as_graph
 from ._pickled import found_of
-from ._question import asked, of_pairs
-from ._tables import csv_of, html_of, rows_of
-from ._types import Decided, N, RulingWord
+from ._question import asked, beside
+from ._tables import csv_of, rows_of
+from ._types import RulingWord
 from ._verdict import Verdict, verify
-
-#: From the model that determines least to the one that determines most.
-_MODELS: Tuple[Decided, ...] = ("affine", "projective", "calibrated")
-
 
 @dataclass(frozen=True)
 class _Said:
@@ -37,87 +33,6 @@ class _Said:
     def report(self) -> str:
         """What the program prints for people."""
         return self._text
-
-
-@dataclass(frozen=True)
-class Change(Generic[N]):
-    """Components of one model that are one in the next."""
-
-    models: Annotated[Tuple[Decided, Decided], "The two models."]
-    component: Annotated[int, "Its place in the components of the second model."]
-    joins: Annotated[Tuple[int, ...], "Those of the first model that it consists of, as places."]
-    at: Annotated[Tuple[N, ...], "The nodes at which these touch."]
-
-
-@dataclass(frozen=True)
-class Models(_Said, Generic[N]):
-    """The verdicts of all models on one graph, side by side: ``models["affine"]``."""
-
-    verdicts: Annotated[Tuple[Verdict[N], ...],
-        "Affine, projective, calibrated: each model determines no more than the next."]
-    changes: Annotated[Tuple[Change[N], ...], "What each model joins that the one before did not."]
-
-    def __getitem__(self, model: Decided) -> Verdict[N]:
-        one_of("model", model, _MODELS)
-        return self.verdicts[_MODELS.index(model)]
-
-    def __iter__(self) -> Iterator[Verdict[N]]:
-        return iter(self.verdicts)
-
-    def __len__(self) -> int:
-        return len(self.verdicts)
-
-    def __repr__(self) -> str:
-        values = ", ".join(f"{verdict.model} {verdict.value}" for verdict in self.verdicts)
-        return f"<viewcert.Models {values}>"
-
-    def _repr_html_(self) -> str:
-        heads = ["model", "verdict", "strength", "rank", "components"]
-        rows = (
-            [one.model, one.value, one.strength, f"{one.rank} of {one.required}", str(len(one))] for one in self.verdicts
-        )
-        return html_of(heads, rows)
-
-
-def models(graph: Any, *, seed: int = 1, **known: Any) -> Models[Any]:
-    """Decides every model of cameras, and says what changes between them.
-
-    Parameters
-    ----------
-    graph
-        As of :func:`verify`.
-    seed : int
-        The seed of all random cameras.
-    **known
-        `parts`, `solutions`, `time_limit`, `memory_limit` and `progress`, as of :func:`verify`.
-
-    Examples
-    --------
-    >>> import viewcert
-    >>> square = [(0, 1), (1, 2), (2, 3), (3, 0), (0, 2)]
-    >>> found = viewcert.models(square)
-    >>> found
-    <viewcert.Models affine solvable, projective solvable, calibrated solvable>
-    >>> found["projective"].rank
-    29
-    """
-    known = {"solutions": "quick", **known}
-    given = as_graph(graph)
-    if given.cameras is not None:
-        raise InputError("models: observations are directions of known rotations, which only the calibrated model has")
-    verdicts = tuple(verify(given, model=model, seed=seed, **known) for model in _MODELS)
-    said = _native.models([found_of(verdict._native) for verdict in verdicts])
-    by_text = given._by_text()
-    changes = tuple(
-        Change(
-            models=(change["from"], change["to"]),
-            component=change["component"] - 1,
-            joins=tuple(joined - 1 for joined in change["joins"]),
-            at=tuple(by_text[text] for text in change["at"]),
-        )
-        for change in json.loads(said[0])["changes"]
-    )
-    return Models(*said, verdicts, changes)
 
 
 @dataclass(frozen=True)
@@ -284,6 +199,6 @@ def _ruled(
         number, wanted, graph=None if given is None else given._native, folder=folder
     )
     found = json.loads(said[0])
-    question = of_pairs({**wanted, "model": decided.model})
+    question = {"wanted": {**wanted, "model": decided.said()["model"]}, "beside": beside()}
     verdict = Verdict._of(Graph._of(native) if given is None else given, decided, question)
-    return Ruling(*said, number + 1, found["ruling"], found["reason"], verdict)
+    return Ruling(said[0], said[1], number + 1, found["ruling"], found["reason"], verdict)

@@ -84,8 +84,10 @@ Pipeline = Literal["incremental", "global"]
 #: What is unknown of the intrinsics of a camera.
 Class = Literal["known", "focal", "focal+point", "unknown"]
 
-#: What graphs determine if cameras have classes.
-IntrinsicsValue = Literal["metric", "not-metric", "open"]
+#: What certificates prove: of a graph, at given cameras, of intrinsics.
+Proved = Literal[
+    "solvable", "finite-solvable", "not-finite-solvable", "determined", "not-determined", "metric", "not-metric", "open",
+]
 
 #: What frames add where base lines are unknown.
 BaseLinesValue = Literal["solvable", "not-finite-solvable", "open"]
@@ -95,10 +97,6 @@ Place = Literal["coincident", "collinear", "coplanar"]
 
 #: What came of a claim.
 RulingWord = Literal["confirmed", "refuted", "not decidable"]
-
-
-#: Matrices at given cameras.
-MatrixName = Literal["J_P", "J", "N", "R"]
 
 
 #: Seconds, or a text such as ``'5m'``.
@@ -116,8 +114,6 @@ class Question(TypedDict, total=False):
     planar: bool
     solutions: Optional[Counting]
     rational: bool
-    numerator: int
-    denominator: int
     prime: Optional[int]
     contraction: bool
     counting: bool

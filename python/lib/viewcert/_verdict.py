@@ -20,12 +20,12 @@ from . import _native
 from ._answers import Frozen, of_said
 from ._arguments import flag, path_of, taking, whole
 from ._convert import Node
-from ._draw import Drawn, plot, positions, to_tikz
+from ._draw import Drawn, plot, positions
 from ._errors import Absent, InputError
 from ._graph import Graph, OfNodes, Path, as_graph, numbered
-from ._native import Decided
 from ._pickled import Pickled, found_of
-from ._question import asked, chosen_model
+from ._places import component_of_pairs, row_that_is_none
+from ._question import asked, beside, chosen_model
 from ._types import BaseLinesValue, N, Other, Question, Strength, Value
 from ._types import Decided as DecidedModel
 from ._words import in_python, noted, shown_notes
@@ -134,28 +134,28 @@ class Verdict(Frozen, Generic[N]):
     False
     """
 
-    __slots__ = ("_graph", "_native", "_question", "_components", "_joints")
+    __slots__ = ("_graph", "_native", "_question", "_said", "_components", "_joints", "_places")
 
     _graph: Graph[N]
-    _native: Union[Decided, Pickled]
+    _native: Any
     _question: Dict[str, Any]
+    _said: Dict[str, Any]
     _components: Optional[List[FrozenSet[N]]]
     _joints: Optional[Tuple[Joint[N], ...]]
+    _places: Optional[NDArray[np.int32]]
 
     def __init__(self) -> None:
         raise TypeError("verdicts come from viewcert.verify")
 
     @classmethod
-    def _of(
-        cls, graph: Graph[Any], native: Union[Decided, Pickled], question: Dict[str, Any]
-    ) -> Verdict[Any]:
+    def _of(cls, graph: Graph[Any], native: Any, question: Dict[str, Any]) -> Verdict[Any]:
         verdict: Verdict[Any] = cls.__new__(cls)
-        for name, value in zip(cls.__slots__, (graph, native, question, None, None)):
+        for name, value in zip(cls.__slots__, (graph, native, question, native.said(), None, None, None)):
             verdict._keep(name, value)
         return verdict
 
     def __reduce__(self) -> Tuple[Any, ...]:
-        return _restored, (self._graph, self._question, Pickled.said(self._native))
+        return _restored, (self._graph, self._question, Pickled.taken(self._native))
 
     def __len__(self) -> int:
         return len(self._parts_found())
@@ -176,10 +176,9 @@ class Verdict(Frozen, Generic[N]):
         found = self.to_dict()
         for member in ("seconds", "seed", "graph", "name", "file", "notes", "read"):
             found.pop(member, None)
-        native = self._native
-        members, ends = native.components()
+        members, ends = self._native.components()
         found["sets"] = members.tolist(), ends.tolist()
-        found["known"] = native.parts(), native.displacements(), native.vectors()
+        found["known"] = [self._said[name] for name in ("parts", "displacements", "vectors")]
         return found
 
     def __bool__(self) -> NoReturn:
@@ -197,23 +196,22 @@ class Verdict(Frozen, Generic[N]):
     def parts(self) -> List[FrozenSet[N]]:
         """The known parts that the answer takes for given, each once."""
         nodes = self._graph.nodes
-        return [frozenset(nodes[number] for number in part) for part in self._native.parts()]
+        return [frozenset(nodes[number] for number in part) for part in self._said["parts"]]
 
     @property
     def displacements(self) -> List[FrozenSet[N]]:
         """The sets of nodes between which the answer takes the vectors for given."""
         nodes = self._graph.nodes
-        groups = self._native.displacements()
-        return [frozenset(nodes[number] for number in group) for group in groups]
+        return [frozenset(nodes[number] for number in group) for group in self._said["displacements"]]
 
     @property
     def vectors(self) -> Optional[Dict[Tuple[N, N], Tuple[int, int, int]]]:
         """The vectors that were given for `displacements`, as integers in one unit: from one node of
         each set to the others. None if only the sets were given."""
-        given = self._native.vectors()
+        given = self._said["vectors"]
         if given is None:
             return None
-        nodes, groups = self._graph.nodes, self._native.displacements()
+        nodes, groups = self._graph.nodes, self._said["displacements"]
         return {
             (nodes[first], nodes[other]): (x, y, z)
             for (first, *others), vectors in zip(groups, given)
@@ -224,58 +222,58 @@ class Verdict(Frozen, Generic[N]):
     def measured(self) -> Value:
         """The answer of pairs and rigs alone: another one than `value` where displacements have a frame of their
         own."""
-        return self._native.measured
+        return self._said["measured"]
 
     @property
     def only_given(self) -> List[N]:
         """The nodes of which a displacement in a frame of its own is given and nothing else: no pair, no rig.
         Nothing measures them."""
         nodes = self._graph.nodes
-        return [nodes[number] for number in self._native.only_given()]
+        return [nodes[number] for number in self._said["only_given"]]
 
     @property
     def model(self) -> DecidedModel:
         """The question: ``'projective'``, ``'calibrated'`` or ``'affine'``. What was asked as
         ``'focal'`` is decided as calibrated, see `conditions`."""
-        return self._native.model
+        return self._said["model"]
 
     @property
     def value(self) -> Value:
         """The answer: ``'solvable'`` (the cameras are unique), ``'finite-solvable'`` (finitely
         many sets of cameras) or ``'not-finite-solvable'`` (infinitely many); with displacements in a frame
         of their own also ``'open'``."""
-        return self._native.value
+        return self._said["value"]
 
     @property
     def strength(self) -> Strength:
         """``'proof'``, or ``'error-bound'``: wrong with probability at most ``2**error_log2``; ``'none'`` of an
         answer that is open."""
-        return self._native.strengths()[0][0]
+        return self._said["strengths"][0][0]
 
     @property
     def error_log2(self) -> Optional[int]:
         """The exponent of the error bound; None if the answer is proved."""
-        return self._native.strengths()[0][1]
+        return self._said["strengths"][0][1]
 
     @property
     def rank(self) -> int:
         """The generic rank."""
-        return self._native.rank
+        return self._said["rank"]
 
     @property
     def required(self) -> int:
         """The rank of a finite solvable graph with as many nodes."""
-        return self._native.required
+        return self._said["required"]
 
     @property
     def rank_strength(self) -> Strength:
         """How strong it is that the rank is not larger."""
-        return self._native.strengths()[1][0]
+        return self._said["strengths"][1][0]
 
     @property
     def components_strength(self) -> Strength:
         """How strong it is that the components are maximal."""
-        return self._native.strengths()[2][0]
+        return self._said["strengths"][2][0]
 
     @property
     def solutions(self) -> Optional[Solutions]:
@@ -317,7 +315,7 @@ class Verdict(Frozen, Generic[N]):
     @property
     def notes(self) -> List[str]:
         """What was merged, ignored or guessed of the graph and of what is known of it."""
-        return [in_python(note) for note in self._native.notes]
+        return [in_python(note) for note in self._said["notes"]]
 
     @property
     def components(self) -> List[FrozenSet[N]]:
@@ -363,9 +361,7 @@ class Verdict(Frozen, Generic[N]):
         component = whole("component", component, -(2**31), 2**31 - 1)
         if not 0 <= component < len(self._parts_found()):
             raise Absent(f"no component {component}: there are {len(self._parts_found())}")
-        members, ends = self._native.components()
-        first = int(ends[component - 1]) if component else 0
-        return _native.pairs_among(self._graph._native, members[first : int(ends[component])])
+        return self._graph.pair_indices[self.component_of_pair() == component]
 
     def component_of_pair(self, pairs: Any = None) -> NDArray[np.int32]:
         """The component of every pair, as its place in `components`; a pair is in just one.
@@ -383,9 +379,17 @@ class Verdict(Frozen, Generic[N]):
         >>> verdict.component_of_pair([(3, 2), (1, 0)])
         array([1, 0], dtype=int32)
         """
-        rows = None if pairs is None else self._graph._rows(pairs)
-        members, ends = self._native.components()
-        return _native.component_of_pairs(self._graph._native, members, ends, rows)
+        count, components = len(self._graph), self._native.components()
+        if pairs is not None:
+            rows = self._graph._rows(pairs)
+            row = row_that_is_none(rows, self._graph.pair_indices, count)
+            if row >= 0:
+                raise InputError(f"row {row} of the pairs is no pair of the graph")
+            return component_of_pairs(rows, components, count)
+        if self._places is None:
+            self._keep("_places", component_of_pairs(self._graph.pair_indices, components, count))
+        assert self._places is not None
+        return self._places.copy()
 
     def component_of_node(self) -> NDArray[np.int32]:
         """For every node, in the order of `Graph.nodes`, the first component that holds it, which is
@@ -488,7 +492,7 @@ class Verdict(Frozen, Generic[N]):
     def save(self, path: Path, *, embed_graph: bool = False) -> None:
         """Writes the certificate to a file, whole or not at all.
         """
-        Decided.write(path_of("path", path), self.certificate(embed_graph=embed_graph))
+        _native.Decided.write(path_of("path", path), self.certificate(embed_graph=embed_graph))
 
     def to_dict(self, *, list_components: bool = False) -> Dict[str, Any]:
         """What ``verify --json`` prints (with `list_components`: and ``--components``). Components
@@ -548,42 +552,13 @@ class Verdict(Frozen, Generic[N]):
         """
         return plot(self._drawn(), ax, pos, labels, node_size)
 
-    def to_tikz(
-        self,
-        *,
-        pos: Optional[Mapping[N, Sequence[float]]] = None,
-        labels: Optional[bool] = None,
-        width: float = 8.0,
-    ) -> str:
-        """The graph as a picture for LaTeX with TikZ, components in the colours of :meth:`picture`.
-
-        Parameters
-        ----------
-        pos, labels
-            As of :meth:`plot`.
-        width : float
-            Of the picture, in centimetres.
-
-        Examples
-        --------
-        >>> import viewcert
-        >>> print(viewcert.verify([("a", "b")]).to_tikz(pos={"a": (0, 0), "b": (1, 0)}, labels=False), end="")
-        \\definecolor{viewcerta}{HTML}{4477AA}
-        \\begin{tikzpicture}[vertex/.style={circle, inner sep=1.6pt, draw=white, fill=#1}]
-          \\node[vertex=viewcerta] (v0) at (0.000, 0.000) {};
-          \\node[vertex=viewcerta] (v1) at (8.000, 0.000) {};
-          \\draw[viewcerta] (v0) -- (v1);
-        \\end{tikzpicture}
-        """
-        return to_tikz(self._drawn(), pos, labels, width)
-
     def _drawn(self) -> Drawn:
         title = f"{self._graph.name}: {self.value}"
         of_node, of_pair = self.component_of_node().tolist(), self.component_of_pair().tolist()
         return Drawn(self._graph, title, found_of(self._native), of_node, of_pair)
 
     def __repr__(self) -> str:
-        count = self._native.component_count()
+        count = self._said["component_count"]
         components = "1 component" if count == 1 else f"{count} components"
         condition = self.to_dict().get("condition")
         value = self.value if condition is None else f"{self.value} {condition}"
@@ -671,8 +646,8 @@ def verify(
     seed : int
         Seed of all random cameras, at least 0. It matters for no proof.
     rational : bool
-        Compute over the integers, at cameras with small rational entries: numerators up to
-        `numerator`, denominators up to `denominator`. For small graphs.
+        Compute over the integers, at cameras with small rational entries: numerators up to 9, denominators up to 4.
+        For small graphs.
     prime : int, optional
         Compute modulo this prime, 5 <= prime < 2^62; by default 2^61 - 1, and 2^29 - 3 for cores of
         256 cameras and more.
@@ -750,10 +725,10 @@ def verify(
     if flag("one_frame", one_frame) and not groups:
         raise InputError("one_frame: no displacements are given that could have another frame; leave it out")
     vectors = coordinates(displacements)
-    beside: Dict[str, Any] = {"parts": known, "displacements": groups, "vectors": vectors, "one_frame": bool(one_frame)}
+    question_of = {"wanted": wanted, "beside": beside(known, groups, vectors, bool(one_frame))}
     with within:
-        native = _native.decide(given._native, wanted, **beside)
-    verdict = Verdict._of(given, native, {"wanted": wanted, **beside})
-    noted(given.name, native.notes[len(given._native.notes) :])
-    _log.debug("%s: %r in %.3f s", given.name, verdict, native.seconds)
+        native = _native.decide(given._native, wanted, question_of["beside"])
+    verdict = Verdict._of(given, native, question_of)
+    noted(given.name, verdict._said["notes"][len(given._native.notes) :])
+    _log.debug("%s: %r in %.3f s", given.name, verdict, verdict._said["seconds"])
     return verdict

@@ -170,10 +170,9 @@ def witness(verdict: Any, *, full: bool = False, seed: Optional[int] = None) -> 
     wanted = dict(verdict._question["wanted"])
     seed = wanted["seed"] if seed is None else whole("seed", seed, 0, 2**64 - 1)
     if (flag("full", full) and wanted["solutions"] != "full") or wanted["solutions"] is None or seed != wanted["seed"]:
-        question = {name: value for name, value in verdict._question.items() if name != "wanted"}
         wanted["solutions"] = "full" if full else wanted["solutions"] or "quick"
         wanted["seed"] = seed
-        found = _native.decide(verdict.graph._native, wanted, **question)
+        found = _native.decide(verdict.graph._native, wanted, verdict._question["beside"])
     else:
         found = found_of(verdict._native)
     text, (why, words) = _native.witness(found, seed=seed)
