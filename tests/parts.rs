@@ -115,7 +115,7 @@ fn parts_against_cliques() {
             prop_assert_eq!(value, contracted.value.to_string());
             let bounds = |verdict: &Verdict| {
                 let count = verdict.solutions.as_ref();
-                count.map(|count| (count.at_least.clone(), count.at_most.clone()))
+                count.map(|count| (count.at_least, count.at_most))
             };
             prop_assert_eq!(bounds(&found), bounds(&contracted));
             let text = found.certificate(&graph).named("random").to_string();

@@ -8,7 +8,6 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use viewcert::decide::{CountSolutions, Options, Question, VerdictError, decide};
 use viewcert::graph::{Graph, graph6};
-use viewcert::solutions::Number;
 use viewcert_lab_catalog::{Candidates, SizeError, laman, least_edges};
 
 /// Where graphs come from.
@@ -48,9 +47,9 @@ pub struct Bounds {
     /// The graph as graph6.
     pub graph6: String,
     /// It has as many solutions at least.
-    pub at_least: Number,
+    pub at_least: usize,
     /// It has no more than that, if there is a bound.
-    pub at_most: Option<Number>,
+    pub at_most: Option<usize>,
     /// What its core has more of equations than of unknowns; `None` if it is one member by the
     /// merge rules, so that there is no core.
     pub excess: Option<i64>,
@@ -58,8 +57,8 @@ pub struct Bounds {
 
 impl Bounds {
     /// The number of solutions, if it is known.
-    pub fn exactly(&self) -> Option<&Number> {
-        self.at_most.as_ref().filter(|&most| *most == self.at_least)
+    pub fn exactly(&self) -> Option<usize> {
+        self.at_most.filter(|&most| most == self.at_least)
     }
 }
 
@@ -69,11 +68,11 @@ pub struct Tally {
     /// How many graphs are finite solvable.
     pub graphs: usize,
     /// How many graphs have exactly so many solutions.
-    pub exactly: BTreeMap<Number, usize>,
+    pub exactly: BTreeMap<usize, usize>,
     /// The same for each excess of the core (`None`: no core).
-    pub by_excess: BTreeMap<Option<i64>, BTreeMap<Number, usize>>,
+    pub by_excess: BTreeMap<Option<i64>, BTreeMap<usize, usize>>,
     /// The first graph with exactly so many solutions.
-    pub first: BTreeMap<Number, String>,
+    pub first: BTreeMap<usize, String>,
     /// The graphs whose number is not known exactly, in their order.
     pub open: Vec<Bounds>,
 }
@@ -81,13 +80,13 @@ pub struct Tally {
 impl Tally {
     fn count(&mut self, graph: Bounds) {
         self.graphs += 1;
-        let Some(solutions) = graph.exactly().cloned() else {
+        let Some(solutions) = graph.exactly() else {
             self.open.push(graph);
             return;
         };
-        *self.exactly.entry(solutions.clone()).or_default() += 1;
+        *self.exactly.entry(solutions).or_default() += 1;
         let of_excess = self.by_excess.entry(graph.excess).or_default();
-        *of_excess.entry(solutions.clone()).or_default() += 1;
+        *of_excess.entry(solutions).or_default() += 1;
         self.first.entry(solutions).or_insert(graph.graph6);
     }
 }
@@ -140,9 +139,8 @@ mod tests {
         tally(&source.graphs(nodes).unwrap(), &options, |_| {}).unwrap()
     }
 
-    fn numbers(of: &[(usize, usize)]) -> BTreeMap<Number, usize> {
-        let numbers = of.iter().map(|&(number, graphs)| (number.into(), graphs));
-        numbers.collect()
+    fn numbers(of: &[(usize, usize)]) -> BTreeMap<usize, usize> {
+        of.iter().copied().collect()
     }
 
     /// One solution each up to eight nodes; ten of the 27 graphs with nine nodes have two
@@ -177,9 +175,7 @@ mod tests {
         assert_eq!(tally.by_excess, [(Some(0), all)].into());
         let tally = tally_of(Source::FewestEdges, 8, 1);
         let excesses = tally.by_excess.iter();
-        let excesses: Vec<_> = excesses
-            .map(|(&excess, of)| (excess, of[&Number::one()]))
-            .collect();
+        let excesses: Vec<_> = excesses.map(|(&excess, of)| (excess, of[&1])).collect();
         let expected = [(None, 15), (Some(1), 21)];
         assert_eq!(excesses, expected);
         // K_{2,3} is one member.

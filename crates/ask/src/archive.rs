@@ -191,8 +191,8 @@ pub fn solutions(verified: &AnyVerified) -> Option<String> {
         (Verdict::NotFiniteSolvable, _) => None,
         (Verdict::Solvable, _) => Some("1".into()),
         (Verdict::FiniteSolvable, None) => Some("1-".into()),
-        (Verdict::FiniteSolvable, Some(count)) => Some(match &count.at_most {
-            Some(most) if *most == count.at_least => most.to_string(),
+        (Verdict::FiniteSolvable, Some(count)) => Some(match count.at_most {
+            Some(most) if most == count.at_least => most.to_string(),
             Some(most) => format!("{}-{most}", count.at_least),
             None => format!("{}-", count.at_least),
         }),

@@ -11,7 +11,6 @@ use viewcert::Model;
 use viewcert::certificate::hex;
 use viewcert::decide::{CountSolutions, Options, Question, Value, Verdict, VerdictError, decide};
 use viewcert::graph::graph6;
-use viewcert::solutions::Number;
 use viewcert_formats::read::{Graphs, graphs};
 use viewcert_formats::{NamedGraph, ReadOptions, read_graphs};
 
@@ -92,7 +91,7 @@ pub struct Claim {
 
 /// How many solutions there are, at least and at most.
 #[derive(Clone, Debug, PartialEq, Eq)]
-struct Bounds(Number, Option<Number>);
+struct Bounds(usize, Option<usize>);
 
 impl Bounds {
     /// `2`, `2-6` or `2-`.
@@ -102,7 +101,7 @@ impl Bounds {
                 "solutions: {text:?} is no number, like 2 or 2-6 or 2-"
             ))
         };
-        let number = |text: &str| text.parse::<usize>().map(Number::from).map_err(bad);
+        let number = |text: &str| text.parse::<usize>().map_err(bad);
         match text.split_once('-') {
             None => Ok(Self(number(text)?, Some(number(text)?))),
             Some((least, "")) => Ok(Self(number(least)?, None)),
@@ -368,15 +367,12 @@ impl Claim {
         let (Some(Bounds(least, most)), Some(known)) = (&self.solutions, &found.solutions) else {
             return Some(self.solutions.is_none());
         };
-        let is_above = |a: &Number, b: &Option<Number>| b.as_ref().is_some_and(|b| a > b);
-        if is_above(least, &known.at_most) || is_above(&known.at_least, most) {
+        let is_above = |a: usize, b: Option<usize>| b.is_some_and(|b| a > b);
+        if is_above(*least, known.at_most) || is_above(known.at_least, *most) {
             return Some(false);
         }
-        let is_inside = most.is_none()
-            || known
-                .at_most
-                .as_ref()
-                .is_some_and(|known| !is_above(known, most));
+        let is_inside =
+            most.is_none() || known.at_most.is_some_and(|known| !is_above(known, *most));
         (known.at_least >= *least && is_inside).then_some(true)
     }
 

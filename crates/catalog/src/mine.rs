@@ -5,7 +5,6 @@ use viewcert::decide::Strength;
 use viewcert::decide::evidence::{Evidence, PieceVerdict};
 use viewcert::decide::{Options, Value, Verdict, VerdictError, decide};
 use viewcert::graph::{Graph, graph6};
-use viewcert::solutions::Number;
 
 /// What the catalog says about one graph.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -18,7 +17,7 @@ pub struct Entry {
     pub contracts: bool,
     /// How many solutions there are at least and, if a bound is known, at most; `None` if
     /// infinitely many.
-    pub solutions: Option<(Number, Option<Number>)>,
+    pub solutions: Option<(usize, Option<usize>)>,
     /// How strong it is.
     pub strength: Strength,
     /// The generic rank.
@@ -56,7 +55,7 @@ impl Entry {
             solutions: verdict
                 .solutions
                 .as_ref()
-                .map(|count| (count.at_least.clone(), count.at_most.clone())),
+                .map(|count| (count.at_least, count.at_most)),
             strength: verdict.value_claim().strength,
             rank: verdict.rank,
             rank_strength: verdict.rank_claim().strength,

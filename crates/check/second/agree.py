@@ -794,7 +794,7 @@ def change_stresses(document, rng):
         v = rng.choice(rng.choice(one["sets"]))
         near = [[node for node in nodes if node != v] for nodes in one["sets"] if v in nodes]
         others = [k for k, edge in enumerate(document["pieces"][0]["edges"]) if v in edge]
-        merge = {"rule": "stressed", "with": others, "at": [v, *map(rng.choice, near)], "solutions": None}
+        merge = {"rule": "stressed", "with": others, "at": [v, *map(rng.choice, near)]}
         one["merges"][rng.randrange(len(one["merges"]))] = merge
 
 

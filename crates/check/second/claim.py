@@ -1,7 +1,7 @@
 """Section 8 of docs/certificate.md: the claim that evidence gives."""
 
 from cores import count_components
-from notation import need, same, written
+from notation import need, same
 from pieces import Pieces
 from solutions import Meter, check_solutions
 
@@ -62,7 +62,7 @@ class Claims(Pieces):
         components = stated(count, bound_sum(errors) if errors else None)
         claim = {"verdict": verdict, "rank": {**rank, "required": required}, "components": components}
         if numbers is not None:
-            least, most = map(written, numbers)
+            least, most = numbers
             claim["solutions"] = {"at_least": least, "at_most": most, "strength": "proof", "error_log2": None}
         return claim
 

@@ -7,7 +7,7 @@ import struct
 
 from elimination import find_pivots
 from graphs import read_given, read_graph, read_graph6
-from notation import a_big, a_list, a_number, a_string, an_int, distinct, increasing, members, need, parse, same
+from notation import a_big, a_list, a_string, an_int, distinct, increasing, members, need, parse, same
 from supposed import Supposed
 
 
@@ -171,9 +171,9 @@ class Document:
                 known = values[0] in ("solvable", "finite-solvable", "not-finite-solvable")
                 need(known, f"{where}: no such value")
             elif name == "solutions":
-                a_number(values[0], f"{where}: at_least")
+                an_int(values[0], f"{where}: at_least", least=0)
                 if values[1] is not None:
-                    a_number(values[1], f"{where}: at_most")
+                    an_int(values[1], f"{where}: at_most", least=0)
             elif name not in ("base_lines", "own_frame"):  # all of which sections 13 and 16 give
                 for value, member in zip(values, ("value", "required")):
                     an_int(value, f"{where}: {member}")

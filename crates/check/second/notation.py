@@ -116,16 +116,6 @@ def a_big(value, where, least=None, below=None):
     return number
 
 
-def a_number(value, where):
-    """Not negative; an int below 2^53, and from there on a big."""
-    return an_int(value, where, least=0) if type(value) is int else a_big(value, where, least=2**53)
-
-
-def written(number):
-    """A number as a certificate has it."""
-    return number if number is None or number < 2**53 else str(number)
-
-
 def a_pair(value, where):
     need(type(value) is list and len(value) == 2, f"{where} is not a pair")
     i, j = (an_int(node, where) for node in value)

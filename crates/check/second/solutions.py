@@ -1,4 +1,4 @@
-"""Section 12 of docs/certificate.md: bounds for the number of solutions, as the list of its conditions (S1) to (S26), and (U1) to (U6).
+"""Section 12 of docs/certificate.md: bounds for the number of solutions, as the list of its conditions (S1) to (S23), and (U1) to (U6).
 
 In comes what the piece is made of (the nodes of its members) and the member `solutions`; out come `at_least` and
 `at_most`. Rows of matrices are dicts from column to residue; only what has to vanish, or not to, is computed.
@@ -142,36 +142,25 @@ def a_residue(value, p, where, least=0):
     return a_big(value, where, least=least, below=p)
 
 
-def check_solutions(value, sets, where, meter, is_part=False, is_factor=False, check=None, is_alone=False):
-    """Section 12: at_least and at_most (or None), for members with these nodes; of a part, that it is finite solvable.
+def check_solutions(value, sets, where, meter, check=None, is_alone=False):
+    """Section 12: at_least and at_most (or None), for members with these nodes.
 
-    `check` is that of the certificate where rounds are allowed. With `is_alone` the merges have to leave one member.
+    `check` is that of the certificate, for rounds. With `is_alone` these have to leave one member.
     """
-    product, rounds = (type(value) is dict and name in value for name in ("product", "rounds"))
-    need(check or not rounds, f"{where}: rounds inside of solutions")
-    names = "merges upper lower" + " product" * product + " rounds" * rounds
-    merges, upper, lower, *others = members(value, names, where)
+    has_rounds = type(value) is dict and "rounds" in value
+    upper, lower, *rounds = members(value, "upper lower" + " rounds" * has_rounds, where)
     meter.charge(SPARSE * sum(map(len, sets)))
     numbered = Numbered(shared_nodes(sets))
-    if rounds:
-        check_rounds(others[-1], numbered, check, f"{where}: rounds", meter)
-    numbered.merge_all(merges, where, meter)
-    numbered = numbered.left()
-    need(len(numbered) == 1 or not is_alone, f"{where}: one-solution, and {len(numbered)} members are left")
-    if product:
-        need(not is_part, f"{where}: (S3) a part has no product")
-        need(upper is None and lower is None, f"{where}: with a product upper and lower are null")
-        at_least, at_most = check_product(others[0], numbered, f"{where}: product", meter)
-        need(at_most is None or at_least <= at_most, f"{where}: at least {at_least} solutions, and at most {at_most}")
-        return at_least, at_most
-    left = list(numbered.values())
+    if has_rounds:
+        check_rounds(rounds[0], numbered, check, f"{where}: rounds", meter)
+    left = list(numbered.left().values())
+    need(len(left) == 1 or not is_alone, f"{where}: one-solution, and {len(left)} members are left")
     if len(left) == 1:
         need(upper is None and lower is None, f"{where}: one member is left, so upper and lower are null")
         return 1, 1
-    nothing = upper is None and lower is None
-    need(is_factor or not nothing, f"{where}: neither upper nor lower, and {len(left)} members are left")
+    need(upper is not None or lower is not None, f"{where}: neither upper nor lower, and {len(left)} members are left")
     core = shared_nodes(left)
-    at_most = None if upper is None else check_upper(upper, core, f"{where}: upper", meter, is_part)
+    at_most = None if upper is None else check_upper(upper, core, f"{where}: upper", meter)
     at_least = 1 if lower is None else check_lower(lower, core, f"{where}: lower", meter)
     need(at_most is None or at_least <= at_most, f"{where}: at least {at_least} solutions, and at most {at_most}")
     return at_least, at_most
@@ -186,34 +175,32 @@ class Numbered:
     def left(self):
         return {member: nodes for member, nodes in enumerate(self.sets) if member not in self.used}
 
-    def merge_all(self, merges, where, meter, part=None, stresses=None):
-        """(S1) to (S3), and (U4) and (U6) in a round, whose part has these nodes."""
+    def merge_all(self, merges, where, meter, part, stresses=None):
+        """(S1) to (S3), and (U4) and (U6); the part of the round has these nodes."""
         for k, merge in enumerate(a_list(merges, f"{where}: merges")):
             at = f"{where}: merge {k}"
-            rule, sources, nodes, inner = members(merge, "rule with at solutions", at)
+            rule, sources, nodes = members(merge, "rule with at", at)
             sources = [an_int(member, f"{at}: with", 0, len(self.sets)) for member in a_list(sources, f"{at}: with")]
             need(len(sources) >= 2, f"{at}: (S1) less than two members")
             increasing(sources, f"{at}: (S1) with")
             need(not self.used & set(sources), f"{at}: (S1) a member was used up")
             nodes = [an_int(node, f"{at}: at") for node in a_list(nodes, f"{at}: at")]
             chosen = [self.sets[member] for member in sources]
-            meter.charge(SPARSE * (sum(map(len, chosen)) + len(nodes) * (1 if rule == "part" else len(sources))))
-            if rule == "part" and part is None:
-                check_part(inner, nodes, chosen, at, meter)
-            elif rule == "removed" and part is not None:
-                check_removed(inner, nodes, chosen, part, at)
-            elif rule == "stressed" and part is not None:
+            meter.charge(SPARSE * (sum(map(len, chosen)) + len(nodes) * len(sources)))
+            if rule == "removed":
+                check_removed(nodes, chosen, part, at)
+            elif rule == "stressed":
                 need(stresses is not None, f"{at}: (U6) there are no stresses")
                 need(len(nodes) >= 3 and distinct(nodes), f"{at}: (U6) at has less than three nodes, or one twice")
                 stresses.check_node(nodes[0], nodes[1:], f"{at}: (U6)", meter)
-                check_pairs(inner, [{nodes[0], end} for end in nodes[1:]], chosen, f"{at}: (U6)")
+                check_pairs([{nodes[0], end} for end in nodes[1:]], chosen, f"{at}: (S3)")
             else:
-                check_rule(rule, inner, nodes, chosen, at)
+                check_rule(rule, nodes, chosen, at)
             self.used.update(sources)
             self.sets.append(frozenset().union(*chosen))
 
 
-def check_rule(rule, inner, nodes, chosen, where):
+def check_rule(rule, nodes, chosen, where):
     """(S2): two shared nodes, the triangle, K_{2,3}, the tripod, or the link."""
     need(type(rule) is str and rule in PAIRS, f"{where}: (S2) no such rule")
     need(len(nodes) == max(max(pair) for pair in PAIRS[rule]) + 1, f"{where}: (S2) at has another length")
@@ -223,7 +210,7 @@ def check_rule(rule, inner, nodes, chosen, where):
         need(any(on <= body and not off & body for body in chosen), f"{where}: (S2) no member has the first three nodes alone")
     if rule == "link":
         check_link(nodes, chosen, where)
-    check_pairs(inner, [{nodes[i], nodes[j]} for i, j in PAIRS[rule]], chosen, f"{where}: (S2)")
+    check_pairs([{nodes[i], nodes[j]} for i, j in PAIRS[rule]], chosen, f"{where}: (S3)")
 
 
 def check_link(nodes, chosen, where):
@@ -237,24 +224,11 @@ def check_link(nodes, chosen, where):
     need(apart, f"{where}: (S2) the link is not between two members without a common node, nor with {g}")
 
 
-def check_pairs(inner, pairs, chosen, where):
-    """(S2): each pair lies in a member, and each member contains a pair."""
-    need(inner is None, f"{where} solutions is not null")
+def check_pairs(pairs, chosen, where):
+    """(S3): each pair lies in a member, and each member contains a pair."""
     need(all(any(pair <= nodes_of for nodes_of in chosen) for pair in pairs), f"{where} a pair lies in no member")
     fits = all(any(pair <= nodes_of for pair in pairs) for nodes_of in chosen)
     need(fits, f"{where} a member contains none of the pairs")
-
-
-def check_part(inner, nodes, chosen, where, meter):
-    """(S3): a part with one solution."""
-    increasing(nodes, f"{where}: (S3) at")
-    kept = frozenset(nodes)
-    inside = [nodes_of & kept for nodes_of in chosen]
-    need(all(len(nodes_of) >= 2 for nodes_of in inside), f"{where}: (S3) a member has less than two of the nodes")
-    need(inner is not None, f"{where}: (S3) solutions is null")
-    need(type(inner) is dict and inner.get("lower") is None, f"{where}: (S3) lower is not null")
-    at_most = check_solutions(inner, inside, f"{where}: solutions", meter, is_part=True)[1]
-    need(at_most == 1, f"{where}: (S3) the part is not shown to have one solution")
 
 
 # Rounds --------------------------------------------------------------------------------------------------------------
@@ -313,13 +287,13 @@ def check_rounds(rounds, numbered, check, where, meter):
         numbered.merge_all(merges, at, meter, found.part, stresses)
 
 
-def check_removed(inner, nodes, chosen, part, where):
+def check_removed(nodes, chosen, part, where):
     """(U4): a node that is not in the part, and neighbours of it that are."""
     need(len(nodes) >= 3 and distinct(nodes), f"{where}: (U4) at has less than three nodes, or one twice")
     v, *ends = nodes
     need(v not in part, f"{where}: (U4) node {v} is in the part")
     need(part.issuperset(ends), f"{where}: (U4) a neighbour is not in the part")
-    check_pairs(inner, [{v, end} for end in ends], chosen, f"{where}: (U4)")
+    check_pairs([{v, end} for end in ends], chosen, f"{where}: (S3)")
 
 
 class Stresses:
@@ -366,74 +340,6 @@ class Stresses:
             rows.append(dict(enumerate(itertools.chain(*(sums[node, key][r] for key in sets)))))
         rank = rank_of(rows, self.p, meter)
         need(rank == 4 * len(sets) - 4, f"{where} the rank at node {v} is {rank}")
-
-
-# Products ------------------------------------------------------------------------------------------------------------
-
-
-def check_product(factors, left, where, meter):
-    """(S24) to (S26): at_least and at_most (or None) of factors of the members that are left."""
-    need(len(a_list(factors, where)) >= 2, f"{where}: (S24) less than two factors")
-    read = [read_factor(factor, left, f"{where}: factor {k}", meter) for k, factor in enumerate(factors)]
-    taken = set().union(*(sources for sources, _, _ in read))
-    need(taken == set(left), f"{where}: (S24) a member is in no factor")
-    nodes = [frozenset().union(*(left[member] for member in sources)) for sources, _, _ in read]
-    joints = joint_pairs([sources for sources, _, _ in read], nodes, left, where, meter)
-    at_least, at_most = 1, 1
-    for k, (sources, inner, rigid) in enumerate(read):
-        at = f"{where}: factor {k}"
-        meter.charge(SPARSE * len(joints))
-        pairs = [pair for pair in joints if nodes[k].issuperset(pair)]
-        sets = [left[member] for member in sources]
-        need((rigid is not None) == bool(pairs), f"{at}: (S26) rigid is an object iff two nodes are a joint")
-        if rigid is not None:
-            check_rigid(rigid, shared_nodes(sets), f"{at}: rigid", meter)
-        sets += map(frozenset, pairs)
-        least, most = check_solutions(inner, sets, f"{at}: solutions", meter, is_factor=True)
-        at_least = times(at_least, least, meter)
-        at_most = None if most is None or at_most is None else times(at_most, most, meter)
-    return at_least, at_most
-
-
-def times(x, y, meter):
-    meter.charge(SPARSE * (1 + x.bit_length() // 30) * (1 + y.bit_length() // 30))
-    return x * y
-
-
-def read_factor(factor, left, where, meter):
-    """(S24) for one factor: its members, and the values of solutions and rigid."""
-    sources, inner, rigid = members(factor, "with solutions rigid", where)
-    sources = [an_int(member, f"{where}: with") for member in a_list(sources, f"{where}: with")]
-    need(len(sources) >= 2, f"{where}: (S24) less than two members")
-    increasing(sources, f"{where}: (S24) with")
-    need(all(member in left for member in sources), f"{where}: (S24) this is no member that is left")
-    meter.charge(SPARSE * sum(len(left[member]) for member in sources))
-    return sources, inner, rigid
-
-
-def joint_pairs(taken, nodes, left, where, meter):
-    """(S25): what each factor has in common with those before it is in a member of both, or a joint pair."""
-    pairs, before, used = set(), set(), set()
-    for k, sources in enumerate(taken):
-        common = nodes[k] & before
-        meter.charge(SPARSE * (len(common) * len(sources) + k))
-        in_member = any(common <= left[member] for member in sources if member in used)
-        if k and not in_member:
-            held = len(common) == 2 and any(common <= others for others in nodes[:k])
-            need(held, f"{where}: (S25) what factor {k} has in common is in no member of both, and is no joint pair")
-            pairs.add(tuple(sorted(common)))
-        before |= nodes[k]
-        used.update(sources)
-    return sorted(pairs)
-
-
-def check_rigid(value, core, where, meter):
-    """(S26): a factor is finite solvable without its pairs."""
-    chart, centres = members(value, "chart centres", where)
-    chart = Chart(chart, core, f"{where}: chart", meter)
-    rows = Rows(chart, centres, f"{where}: centres", meter)
-    check_independent(rows, where)
-    check_point(rows, [1] * len(chart.unknowns), f"{where}: (S26) the factor is not shown to be finite solvable")
 
 
 # Charts --------------------------------------------------------------------------------------------------------------
@@ -583,7 +489,7 @@ class Rows:
 # An upper bound ------------------------------------------------------------------------------------------------------
 
 
-def check_upper(value, core, where, meter, is_part):
+def check_upper(value, core, where, meter):
     """Section 12, an upper bound: the number of solutions at most."""
     chart, centres, steps, points = members(value, "chart centres steps points", where)
     chart = Chart(chart, core, f"{where}: chart", meter)
@@ -599,11 +505,7 @@ def check_upper(value, core, where, meter, is_part):
             known.update((f, 1) for f in unknowns)
     if points is None:
         need(len(known) == len(chart.unknowns), f"{where}: an unknown is not known after the steps")
-    count = 1 if points is None else check_points(points, chart, known, f"{where}: points", meter)
-    if is_part:
-        check_independent(rows, f"{where}: (S3)")
-        check_point(rows, [1] * len(chart.unknowns), f"{where}: (S3) the part is not shown to be finite solvable")
-    return count
+    return 1 if points is None else check_points(points, chart, known, f"{where}: points", meter)
 
 
 def check_linear(value, rows, known, where):
@@ -668,19 +570,13 @@ class Support:
         for k, minor in enumerate(a_list(minors, f"{where}: minors")):
             self.add_minor(minor, f"{where}: minor {k}")
 
-    def read_shift(self, value, room, where):
-        value = a_list(value, f"{where}: shifts")
-        need(len(value) == len(room), f"{where}: (S13) a shift has another length")
-        return tuple(an_int(b, f"{where}: (S13) shifts", 0, free + 1) for b, free in zip(value, room))
-
     def read_exponent(self, value):
         value = a_list(value, f"{self.where}: absent")
         need(len(value) == len(self.bounds), f"{self.where}: (S12) an exponent has another length")
         return tuple(an_int(e, f"{self.where}: absent", 0, d + 1) for e, d in zip(value, self.bounds))
 
     def add_minor(self, value, where):
-        optional = " shifts" * (type(value) is dict and "shifts" in value)
-        rows, plus, minus_rows, cols, *listed = members(value, "rows plus minus cols" + optional, where)
+        rows, plus, minus_rows, cols = members(value, "rows plus minus cols", where)
         limit, width = len(self.rows.sides), self.rows.chart.width
 
         def indices(listed, below, name):
@@ -703,17 +599,12 @@ class Support:
         degrees = [min(count, 3) for count in counts]
         need(all(d <= bound for d, bound in zip(degrees, self.bounds)), f"{where}: (S13) a degree is above its bound")
         room = [bound - d for d, bound in zip(degrees, self.bounds)]
-        if listed:
-            shifts = [self.read_shift(b, room, where) for b in a_list(listed[0], f"{where}: shifts")]
-            increasing(shifts, f"{where}: (S13) shifts")
-        else:
-            shifts = list(itertools.product(*(range(free + 1) for free in room)))
+        shifts = list(itertools.product(*(range(free + 1) for free in room)))
         grid, gone = list(itertools.product(*(range(d + 1) for d in degrees))), set(self.absent)
         self.meter.charge(SPARSE * (len(degrees) + 1) * (len(shifts) * len(grid) * bool(gone) + len(grid)))
         for e in [e for e in grid if gone and any(tuple(map(sum, zip(e, shift))) in gone for shift in shifts)]:
             self.meter.charge(DENSE * 6 * size * size)
             fits = self.has_transversal(rows, plus, minus_rows, cols, counts, e)
-            fits = fits and self.has_choice(rows, plus, minus_rows, cols, e)
             need(not fits, f"{where}: (S14) the coefficient of {list(e)} need not vanish")
         polynomial = self.polynomial(rows, plus, minus_rows, cols, degrees)
         self.meter.charge(SPARSE * len(degrees) * len(shifts) * len(polynomial))
@@ -737,35 +628,6 @@ class Support:
                 open_columns |= set() if struck else side.generic & wanted
             choices.append(open_columns)
         return match(choices)
-
-    def has_choice(self, rows, plus, minus_rows, cols, exponent):
-        """(S14): a transversal, however a side of each row with a listed unknown is chosen."""
-        sides, wanted = self.rows.sides, set(cols)
-        listed = lambda side: self.unknowns.index(side.unknown) if side.unknown in self.unknowns else None
-        moving = [row for row in rows if any(listed(side) is not None for side in sides[row])]
-        fixed = [sides[row][0].generic & wanted for row in plus] + [sides[row][1].generic & wanted for row in minus_rows]
-        fixed += [(sides[row][0].generic | sides[row][1].generic) & wanted for row in rows if row not in moving]
-        unknowns = [{listed(side) for side in sides[row]} for row in moving]
-        left = [[sum(f in found for found in unknowns[k:]) for f in range(len(exponent))] for k in range(len(moving) + 1)]
-        # What is chosen in the first of these rows, and how often each unknown is still to be chosen.
-        partial = [((), tuple(exponent))]
-        while partial:
-            chosen, due = partial.pop()
-            self.meter.charge(SPARSE * (len(chosen) + len(due) + 1))
-            if any(owed > most for owed, most in zip(due, left[len(chosen)])):
-                continue
-            if len(chosen) == len(moving):
-                self.meter.charge(DENSE * 6 * len(cols) ** 2)
-                if match(fixed + [side.generic & wanted for side in chosen]):
-                    return True
-                continue
-            for side in sides[moving[len(chosen)]]:
-                f = listed(side)
-                if f is None:
-                    partial.append(((*chosen, side), due))
-                elif due[f]:
-                    partial.append(((*chosen, side), due[:f] + (due[f] - 1,) + due[f + 1 :]))
-        return False
 
     def polynomial(self, rows, plus, minus_rows, cols, degrees):
         """The coefficients of a minor, all by the same factor that is not zero; or none if it vanishes."""

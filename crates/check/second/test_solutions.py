@@ -1,4 +1,4 @@
-"""Tests of section 12 of docs/certificate.md: every condition (S1) to (S26) is broken once, and the reason has to name it.
+"""Tests of section 12 of docs/certificate.md: every condition (S1) to (S23) is broken once, and the reason has to name it.
 
 Most of them are about K_{2,3}, which has one solution, and small enough to do by hand: with a = 0, b = 1, the nodes 2, 3,
 4 are half-edges, and two scales are unknown.
@@ -11,7 +11,6 @@ import os
 import random
 import sys
 import unittest
-import unittest.mock
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
@@ -31,17 +30,24 @@ def centres(nodes, seed=1, p=P):
     return {"prime": str(p), "values": [[str(rng.randrange(p)) for _ in range(3)] for _ in range(nodes)]}
 
 
-def merge(rule, sources, at, inner=None):
-    return {"rule": rule, "with": sources, "at": at, "solutions": inner}
+def merge(rule, sources, at):
+    return {"rule": rule, "with": sources, "at": at}
 
 
-def value(merges=(), upper=None, lower=None):
-    return {"merges": list(merges), "upper": upper, "lower": lower}
+def value(upper=None, lower=None):
+    return {"upper": upper, "lower": lower}
 
 
-def bound(edges, merges=(), **parts):
+def left(sets, merges):
+    """How many members merges leave."""
+    numbered = solutions.Numbered(solutions.shared_nodes(list(map(frozenset, sets))))
+    numbered.merge_all(merges, "section 12", solutions.Meter(), frozenset())
+    return len(numbered.left())
+
+
+def bound(edges, **parts):
     """at_least and at_most for members that are edges."""
-    return solutions.check_solutions(value(merges, **parts), [frozenset(edge) for edge in edges], "section 12", solutions.Meter())
+    return solutions.check_solutions(value(**parts), [frozenset(edge) for edge in edges], "section 12", solutions.Meter())
 
 
 HALF_EDGES = {"chains": [], "half_edges": [[2, 0, 1], [3, 0, 1], [4, 0, 1]], "unknowns": [[1, 1], [2, 1]]}
@@ -76,7 +82,8 @@ def upper(steps=(), chart=HALF_EDGES, points=None):
 class Case(unittest.TestCase):
     def rejects(self, edges, words, merges=(), **parts):
         with self.subTest(words=words), self.assertRaises(notation.Reject) as caught:
-            bound(edges, merges, **parts)
+            left(edges, list(merges))
+            bound(edges, **parts)
         self.assertIn(words, str(caught.exception))
 
     def broken(self, original, pointer, new, words, edges=BICLIQUE):
@@ -147,19 +154,16 @@ class Rounds(unittest.TestCase):
             (put([12, 1, 1], 0, "merges", 0, "at"), "(U4) at has less than three nodes, or one twice"),
             (put([1, 4, 9], 0, "merges", 0, "at"), "(U4) node 1 is in the part"),
             (put([12, 1, 12345], 0, "merges", 0, "at"), "(U4) a neighbour is not in the part"),
-            (put([12, 1, 9], 0, "merges", 0, "at"), "(U4) a pair lies in no member"),
-            (put([0, 7, 15], 0, "merges", 0, "with"), "(U4) a member contains none of the pairs"),
-            (put(value(), 0, "merges", 0, "solutions"), "(U4) solutions is not null"),
+            (put([12, 1, 9], 0, "merges", 0, "at"), "(S3) a pair lies in no member"),
+            (put([0, 7, 15], 0, "merges", 0, "with"), "(S3) a member contains none of the pairs"),
+            (put(value(), 0, "merges", 0, "solutions"), "the member solutions is unknown"),
             (put("part", 0, "merges", 0, "rule"), "(S2) no such rule"),
             (in_order(1, 0, 2), "(U1) no member has all its nodes"),
             (in_order(0, 2, 1), "(U1) no member has all its nodes"),
             (in_order(), "there is none"),
-            (lambda other: other["solutions"]["merges"][0].update(rule="removed"), "(S2) no such rule"),
+            (put("removed", 2, "merges", -1, "rule"), "(U4) node"),
         ):
             self.refused(change, words)
-        for name, place in (("part", "merges"), ("product", "product")):
-            inside = lambda other: other["solutions"][place][0]["solutions"].update(rounds=[])  # noqa: E731
-            self.refused(inside, "rounds inside of solutions", read(name))
 
     def test_stresses(self):
         """(U5) and (U6): stresses at the point where the rank is shown, and the nodes 4 and 8."""
@@ -206,7 +210,7 @@ class Rounds(unittest.TestCase):
         self.refused(lambda other: other["solutions"]["merges"].insert(0, node_2), "(S2) no such rule", read("part"))
 
     def test_one_solution(self):
-        self.refused(lambda other: other["solutions"]["merges"].pop(), "one-solution, and 3 members are left")
+        self.refused(lambda other: other["solutions"]["rounds"][-1]["merges"].pop(), "one-solution, and 3 members are left")
 
         def without(other):
             del other["solutions"], other["claim"]["solutions"]
@@ -227,13 +231,14 @@ class Merges(Case):
     """(S1) to (S3)."""
 
     def test_what_is_merged(self):
-        self.assertEqual(bound(BICLIQUE, [merge("biclique", list(range(6)), [0, 1, 2, 3, 4])]), (1, 1))
+        self.assertEqual(left(BICLIQUE, [merge("biclique", list(range(6)), [0, 1, 2, 3, 4])]), 1)
         triangles = [(0, 1), (0, 2), (1, 2), (1, 3), (2, 3)]
         steps = [merge("triangle", [0, 1, 2], [0, 1, 2]), merge("triangle", [3, 4, 5], [1, 3, 2])]
-        self.assertEqual(bound(triangles, steps), (1, 1))
-        sets = [frozenset({0, 1, 2}), frozenset({1, 2, 3}), frozenset({1, 2, 4})]
-        all_share = solutions.check_solutions(value([merge("shared", [0, 1, 2], [1, 2])]), sets, "", solutions.Meter())
-        self.assertEqual(all_share, (1, 1))
+        self.assertEqual(left(triangles, steps), 1)
+        self.assertEqual(left([{0, 1, 2}, {1, 2, 3}, {1, 2, 4}], [merge("shared", [0, 1, 2], [1, 2])]), 1)
+        with self.assertRaises(notation.Reject) as caught:
+            bound([(0, 1)], upper=upper([LINEAR]))
+        self.assertIn("one member is left, so upper and lower are null", str(caught.exception))
 
     def test_s1(self):
         whole = [0, 1, 2, 3, 4]
@@ -249,18 +254,17 @@ class Merges(Case):
 
     def test_s2(self):
         every = list(range(6))
-        for rule, sources, at, inner, words in [
-            ("pair", every, [0, 1, 2, 3, 4], None, "(S2) no such rule"),
-            (None, every, [0, 1, 2, 3, 4], None, "(S2) no such rule"),
-            ("biclique", every, [0, 1, 2, 3], None, "(S2) at has another length"),
-            ("biclique", every, [0, 1, 2, 3, 3], None, "(S2) the nodes of at are not different"),
-            ("biclique", every, [0, 1, 2, 3, 4], value(), "(S2) solutions is not null"),
-            ("biclique", every, [0, 2, 1, 3, 4], None, "(S2) a pair lies in no member"),
-            ("biclique", every[:5], [0, 1, 2, 3, 4], None, "(S2) a pair lies in no member"),
-            ("triangle", [0, 1], [0, 2, 3], None, "(S2) a pair lies in no member"),
-            ("shared", [0, 1], [0, 2], None, "(S2) a member contains none of the pairs"),
+        for rule, sources, at, words in [
+            ("pair", every, [0, 1, 2, 3, 4], "(S2) no such rule"),
+            (None, every, [0, 1, 2, 3, 4], "(S2) no such rule"),
+            ("biclique", every, [0, 1, 2, 3], "(S2) at has another length"),
+            ("biclique", every, [0, 1, 2, 3, 3], "(S2) the nodes of at are not different"),
+            ("biclique", every, [0, 2, 1, 3, 4], "(S3) a pair lies in no member"),
+            ("biclique", every[:5], [0, 1, 2, 3, 4], "(S3) a pair lies in no member"),
+            ("triangle", [0, 1], [0, 2, 3], "(S3) a pair lies in no member"),
+            ("shared", [0, 1], [0, 2], "(S3) a member contains none of the pairs"),
         ]:
-            self.rejects(BICLIQUE, words, [merge(rule, sources, at, inner)])
+            self.rejects(BICLIQUE, words, [merge(rule, sources, at)])
 
     def test_tripods_and_links(self):
         """(S2): the same members as in `link.json`."""
@@ -273,17 +277,12 @@ class Merges(Case):
         def link(at, edges, first=(), bodies=(0, 1)):
             return [*first, merge("link", sorted([*bodies, *numbers(*edges)]), at)]
 
-        def left(merges):
-            numbered = solutions.Numbered(solutions.shared_nodes(sets))
-            numbered.merge_all(merges, "section 12", solutions.Meter())
-            return len(numbered.left())
-
         ends, four = [0, 1, 2, 4, 5, 6, 8], [(0, 4), (1, 5), (2, 8), (6, 8)]
-        self.assertEqual(left(link(ends, four)), len(sets) - 5)
-        self.assertEqual(left(link([0, 1, 0, 4, 5, 5, 8], [(0, 4), (1, 5), (0, 8), (5, 8)])), len(sets) - 5)
+        self.assertEqual(left(sets, link(ends, four)), len(sets) - 5)
+        self.assertEqual(left(sets, link([0, 1, 0, 4, 5, 5, 8], [(0, 4), (1, 5), (0, 8), (5, 8)])), len(sets) - 5)
         joined = link(ends, four)
         tripod = [len(sets), *numbers((0, 9), (1, 10), (3, 11), (9, 10), (9, 11))]
-        self.assertEqual(left([*joined, merge("tripod", sorted(tripod), [0, 1, 3, 9, 10, 11])]), len(sets) - 10)
+        self.assertEqual(left(sets, [*joined, merge("tripod", sorted(tripod), [0, 1, 3, 9, 10, 11])]), len(sets) - 10)
         inside = [len(sets), *numbers((0, 9), (3, 9), (2, 11), (9, 11))]
         moved = [ends[:k] + [node] + ends[k + 1 :] for k, node in ((2, 4), (2, 5), (2, 8), (5, 0), (5, 1), (5, 2), (5, 8))]
 
@@ -297,86 +296,29 @@ class Merges(Case):
             *((link(at, four), "an end of the path is where none can be") for at in moved),
             (link([0, 1, 0, 4, 5, 4, 8], [(0, 4), (1, 5), (0, 8), (4, 8)]), "the plane of 0, 8 and 4"),
             (link([0, 1, 1, 4, 5, 5, 8], [(0, 4), (1, 5), (1, 8), (5, 8)]), "the plane of 1, 8 and 5"),
-            (link(ends, four[:3]), "(S2) a pair lies in no member"),
+            (link(ends, four[:3]), "(S3) a pair lies in no member"),
             (link(ends[:6], four), "(S2) at has another length"),
             (link(ends, four, grown("triangle", [1, *six], [3, 6, 7]), (0, len(sets))), "not between two members"),
             (link(ends, four[:3], grown("triangle", [1, *eight], [6, 7, 8]), (0, len(sets))), "not between two members"),
             (link(ends, four[:3], bodies=()), "not between two members"),
             ([*joined, merge("tripod", sorted(inside), [0, 1, 2, 9, 3, 11])], "no member has the first three nodes alone"),
             ([*joined, merge("tripod", sorted(tripod), [0, 1, 1, 9, 10, 11])], "(S2) the nodes of at are not different"),
-            ([*joined, merge("tripod", sorted(tripod)[:-1], [0, 1, 3, 9, 10, 11])], "(S2)"),
+            ([*joined, merge("tripod", sorted(tripod)[:-1], [0, 1, 3, 9, 10, 11])], "(S3) a pair"),
         ):
             with self.subTest(words=words), self.assertRaises(notation.Reject) as caught:
-                left(merges)
+                left(sets, merges)
             self.assertIn(words, str(caught.exception))
 
     def test_unshared_nodes_do_not_count(self):
         sets = [frozenset({0, 1, 5}), frozenset({1, 2}), frozenset({0, 2, 5}), frozenset({0, 3}), frozenset({2, 3})]
         self.assertEqual(solutions.shared_nodes([{0, 1, 5}, {0, 1, 6}]), [{0, 1}, {0, 1}])
         with self.assertRaises(notation.Reject) as caught:
-            solutions.check_solutions(value([merge("shared", [0, 1], [5, 1])]), sets, "", solutions.Meter())
-        self.assertIn("(S2) a member contains none of the pairs", str(caught.exception))
-
-    def test_s3(self):
-        """K_{2,3} with a path of two edges from 2 to 3: the part K_{2,3}, then a triangle of three members."""
-        edges = [*BICLIQUE, (2, 5), (3, 5)]
-        nodes, last = [0, 1, 2, 3, 4], merge("triangle", [6, 7, 8], [2, 5, 3])
-        merged = value([merge("biclique", list(range(6)), nodes)])
-        by_upper = value(upper=upper([LINEAR]))
-        for inner in (merged, by_upper):
-            self.assertEqual(bound(edges, [merge("part", list(range(6)), nodes, inner), last]), (1, 1))
-        for sources, at, inner, words in [
-            (list(range(6)), [0, 1, 3, 2, 4], merged, "(S3) at is not increasing"),
-            (list(range(7)), nodes, merged, "(S3) a member has less than two of the nodes"),
-            (list(range(6)), nodes, None, "(S3) solutions is null"),
-            (list(range(6)), nodes, value(upper=upper([LINEAR]), lower={}), "(S3) lower is not null"),
-            (list(range(6)), nodes, value(), "neither upper nor lower"),
-            (list(range(6)), nodes, {**value(), "product": []}, "(S3) a part has no product"),
-        ]:
-            self.rejects(edges, words, [merge("part", sources, at, inner), last])
-        # The 4-cycle is not finite solvable: whatever is said of its solutions, the point u = 1 is not simple.
-        square, cycle = [(0, 2), (0, 3), (1, 2), (1, 3)], {"chains": [], "half_edges": [[2, 0, 1], [3, 0, 1]]}
-        chart = {**cycle, "unknowns": [[1, 1]]}
-        flexible = {"chart": chart, "centres": centres(4), "steps": [], "points": None}
-        rows = solutions.Rows(solutions.Chart(chart, [set(e) for e in square], "", solutions.Meter()), centres(4), "", solutions.Meter())
-        with self.assertRaises(notation.Reject) as caught:
-            solutions.check_point(rows, [1], "")
-        self.assertIn("(S22) the point is not simple", str(caught.exception))
-        inner = value(upper=flexible)
-        self.rejects(BICLIQUE, "an unknown is not known", [merge("part", [0, 1, 3, 4], [0, 1, 2, 3], inner)])
-        inner = value(upper={**flexible, "points": {**POINTS, "centres": centres(4, 2), "unknowns": [0], "bounds": [2],
-                             "minors": [], "points": [{"values": ["1"], "steps": []}]}})
-        words = "(S17) 1 points, but 3 dimensions"
-        self.rejects(BICLIQUE, words, [merge("part", [0, 1, 3, 4], [0, 1, 2, 3], inner)])
-
-
-def nested(depth):
-    """Members and evidence: each part is an edge of the next K_{2,3}, in which it is a part again."""
-    edges, inner = list(BICLIQUE), value(upper=upper([LINEAR]))
-    for _ in range(depth):
-        nodes = sorted(set(itertools.chain.from_iterable(edges)))
-        part = merge("part", list(range(len(edges))), nodes, inner)
-        a, c, b = nodes[-2], nodes[-1], nodes[-1] + 1
-        d, e = b + 1, b + 2
-        edges += [(a, d), (a, e), (c, b), (b, d), (b, e)]
-        # In increasing order the shared nodes are a, c, b, d, e.
-        chart = {"chains": [], "half_edges": [[c, a, b], [d, a, b], [e, a, b]], "unknowns": [[1, b], [2, b]]}
-        inner = value([part], upper=upper([LINEAR], chart))
-    return edges, inner
+            left(sets, [merge("shared", [0, 1], [5, 1])])
+        self.assertIn("(S3) a member contains none of the pairs", str(caught.exception))
 
 
 class Costs(Case):
     """Section 11."""
-
-    def spent(self, sets, evidence):
-        meter = solutions.Meter()
-        self.assertEqual(solutions.check_solutions(evidence, sets, "", meter), (1, 1))
-        return meter.limit - meter.left
-
-    def test_nested_parts(self):
-        """Twice as deep, no more than four times the operations: the nodes of each level lie in all around it."""
-        small, large = (self.spent(list(map(frozenset, edges)), inner) for edges, inner in map(nested, (12, 24)))
-        self.assertLess(large, 4 * small)
 
     def too_large(self, limit, **parts):
         with self.assertRaises(notation.TooLarge) as caught:
@@ -597,70 +539,6 @@ class Supports(Case):
             solutions.Meter.charge = charge
         self.assertLess(sum(spent), 10**7)
 
-    def test_s13_shifts(self):
-        with open(os.path.join(HERE, "../tests/solutions/balanced.json"), encoding="utf-8") as file:
-            document = json.load(file)
-        edges, upper_part = graphs.read_graph6(document["graph"]["graph6"]).edges, document["solutions"]["upper"]
-        (step,) = upper_part["steps"]
-        last = step["minors"][-1]
-        self.assertEqual((last["rows"], last["shifts"]), ([0, 3, 5], [[1, 0, 0, 0]]))
-        changed = lambda new: {**upper_part, "steps": [{**step, "minors": [*step["minors"][:-1], new]}]}
-        self.assertEqual(bound(edges, upper=upper_part), (1, 1))
-        leads_out = "minor 8: (S14) the coefficient of [0, 0, 0, 1] need not vanish"
-        for shifts, words in [
-            ([[1, 0, 0, 0]] * 2, "minor 8: (S13) shifts is not increasing"),
-            ([[1, 0, 0, 0], [0, 0, 0, 0]], "minor 8: (S13) shifts is not increasing"),
-            ([[0, 0, 0]], "minor 8: (S13) a shift has another length"),
-            ([[0, 0, 0, 0, 0]], "minor 8: (S13) a shift has another length"),
-            ([[2, 0, 0, 0]], "minor 8: (S13) shifts: 2 is out of range"),
-            ([[0, 1, 0, 0]], "minor 8: (S13) shifts: 1 is out of range"),
-            ([[-1, 0, 0, 0]], "minor 8: (S13) shifts: -1 is below 0"),
-            ([1], "minor 8: shifts is not a list"),
-            (None, "minor 8: shifts is not a list"),
-            ([[1, 0, 1, 0]], leads_out),
-            ([], "(S16) the coefficients have the rank 8, not 9"),
-        ]:
-            self.rejects(edges, words, upper=changed({**last, "shifts": shifts}))
-        # Without the list all shifts have to stay in A.
-        self.rejects(edges, leads_out, upper=changed({name: last[name] for name in last if name != "shifts"}))
-        # The first two are one minor with two shifts.
-        first, second, *others = step["minors"]
-        self.assertEqual(first["rows"], second["rows"])
-        both = {**first, "shifts": first["shifts"] + second["shifts"]}
-        self.assertEqual(bound(edges, upper={**upper_part, "steps": [{**step, "minors": [both, *others]}]}), (1, 1))
-
-    def test_s14_choices(self):
-        """Either row of the edge from 4 to 1 may be the one whose side at 1 is chosen, but just one of them."""
-        edges = [(v, w) for v, ends in enumerate([(0, 1), (0, 1), (1, 2), (1, 2), (0, 2), (0, 2)], 3) for w in ends]
-        chart = {
-            "chains": [[0, 4], [4, 1]],
-            "half_edges": [[3, 0, 1], [5, 1, 2], [6, 1, 2], [7, 0, 2], [8, 0, 2]],
-            "unknowns": [[1, 1], [4, 2], [5, 2], [6, 2]],
-        }
-        # Columns 3 to 5 are those of 1, the last three those of 4. With one column of 1 one row or the other has to be
-        # there; without a column of 4 both have to.
-        doubt = "minor 0: (S14) the coefficient of [1, 1, 1, 0] need not vanish"
-        for cols, words in [
-            ([0, 1, 2, 4, 6, 7, 8, 9, 10], doubt),
-            ([0, 1, 2, 5, 6, 7, 8, 9, 10], doubt),
-            (range(9), "(S16) the coefficients have the rank 1, not 22"),
-        ]:
-            one = minor(cols, range(9))
-            step = {"kind": "support", "unknowns": [0, 1, 2, 3], "bounds": [2, 1, 1, 1], "absent": [[1, 1, 1, 0]], "minors": [one]}
-            self.rejects(edges, words, upper={**upper([step], chart), "centres": centres(9)})
-
-    def test_choices_are_verified(self):
-        """A certificate of the program: twelve nodes, six unknowns."""
-        with open(os.path.join(HERE, "../tests/solutions/choices.json"), encoding="utf-8") as file:
-            document = json.load(file)
-        edges, upper_part = graphs.read_graph6(document["graph"]["graph6"]).edges, document["solutions"]["upper"]
-        self.assertEqual(bound(edges, upper=upper_part), (1, 1))
-        # What is absent is in doubt if only whole coefficients are looked at.
-        (step,) = upper_part["steps"]
-        self.assertEqual((len(step["absent"]), len(step["minors"])), (283, 40))
-        with unittest.mock.patch.object(solutions.Support, "has_choice", return_value=True):
-            self.rejects(edges, "(S14) the coefficient of", upper=upper_part)
-
     def test_s15(self):
         flat = {"unknowns": [0, 1], "bounds": [1, 1], "absent": [[0, 1], [1, 0], [1, 1]], "minors": []}
         self.step("(S15) an unknown that the exponents do not tell apart", **flat)
@@ -732,177 +610,6 @@ LOWER = {
 }
 
 
-# Two K_{2,3} with the edge 0-2 in common, and two with the nodes 0 and 1 only, which are not adjacent.
-AT_AN_EDGE = [*BICLIQUE, (0, 5), (0, 6), (2, 7), (5, 7), (6, 7)]
-AT_TWO_NODES = [*BICLIQUE, (0, 5), (0, 6), (0, 7), (1, 5), (1, 6), (1, 7)]
-
-
-def factor(sources, inner, rigid=None):
-    return {"with": sources, "solutions": inner, "rigid": rigid}
-
-
-def product(*factors, merges=(), **parts):
-    return {**value(merges, **parts), "product": list(factors)}
-
-
-def product_of(edges, evidence, meter=None):
-    return solutions.check_solutions(evidence, [frozenset(edge) for edge in edges], "section 12", meter or solutions.Meter())
-
-
-def one(nodes, members=6):
-    return value([merge("biclique", list(range(members)), nodes)])
-
-
-class Products(Case):
-    """(S24) to (S26)."""
-
-    FIRST = factor(list(range(6)), one([0, 1, 2, 3, 4]))
-    SECOND = factor([0, 6, 7, 8, 9, 10], one([0, 7, 2, 5, 6]))
-    # Behind the six edges of a factor stands the pair 0, 1, which shares two nodes with what they are merged to.
-    PAIRED = [[merge("biclique", list(range(6)), [0, 1, *others]), merge("shared", [6, 7], [0, 1])] for others in ([2, 3, 4], [5, 6, 7])]
-    RIGID = {"chart": HALF_EDGES, "centres": centres(5)}
-    SECOND_RIGID = {
-        "chart": {**HALF_EDGES, "half_edges": [[5, 0, 1], [6, 0, 1], [7, 0, 1]]},
-        "centres": centres(5),
-    }
-
-    def setUp(self):
-        first, second = (value(steps) for steps in self.PAIRED)
-        self.pair = [
-            factor(list(range(6)), first, self.RIGID),
-            factor(list(range(6, 12)), second, self.SECOND_RIGID),
-        ]
-
-    def refused(self, edges, evidence, words):
-        with self.subTest(words=words), self.assertRaises(notation.Reject) as caught:
-            product_of(edges, evidence)
-        self.assertIn(words, str(caught.exception))
-
-    def test_they_hold(self):
-        self.assertEqual(product_of(AT_AN_EDGE, product(self.FIRST, self.SECOND)), (1, 1))
-        self.assertEqual(product_of(AT_AN_EDGE, product(self.SECOND, self.FIRST)), (1, 1))
-        self.assertEqual(product_of(AT_TWO_NODES, product(*self.pair)), (1, 1))
-        # After merges members are those that are left: one K_{2,3} in the place of its edges.
-        merged = merge("biclique", list(range(6)), [0, 1, 2, 3, 4])
-        triangle = [*AT_AN_EDGE, (1, 8), (2, 8)]
-        rest = factor([6, 7, 8, 9, 10, 13], one([0, 7, 2, 5, 6]))
-        tip = factor([11, 12, 13], value([merge("triangle", [0, 1, 2], [1, 8, 2])]))
-        self.assertEqual(product_of(triangle, product(rest, tip, merges=[merged])), (1, 1))
-
-    def test_what_is_open(self):
-        """A factor of which nothing is known leaves no upper bound; elsewhere something has to be known."""
-        nothing = factor(self.SECOND["with"], value())
-        self.assertEqual(product_of(AT_AN_EDGE, product(self.FIRST, nothing)), (1, None))
-        self.assertEqual(product_of(AT_AN_EDGE, product(nothing, self.FIRST)), (1, None))
-        self.rejects(AT_AN_EDGE, "neither upper nor lower")
-
-    def test_form(self):
-        good = product(self.FIRST, self.SECOND)
-        self.refused(AT_AN_EDGE, {**good, "upper": upper()}, "with a product upper and lower are null")
-        self.refused(AT_AN_EDGE, {**good, "lower": {}}, "with a product upper and lower are null")
-        self.refused(AT_AN_EDGE, {**good, "product": None}, "product is not a list")
-        self.refused(AT_AN_EDGE, product(self.FIRST, {**self.SECOND, "pairs": []}), "the member pairs is unknown")
-
-    def test_s24(self):
-        first, second = self.FIRST, self.SECOND
-        for factors, words in [
-            ([first], "(S24) less than two factors"),
-            ([first, {**second, "with": [0]}], "(S24) less than two members"),
-            ([first, {**second, "with": [6, 0, 7, 8, 9, 10]}], "(S24) with is not increasing"),
-            ([first, {**second, "with": [0, 6, 7, 8, 9, 10, 11]}], "(S24) this is no member that is left"),
-            ([first, {**second, "with": [0, 6, 7, 8, 9]}], "(S24) a member is in no factor"),
-        ]:
-            self.refused(AT_AN_EDGE, product(*factors), words)
-        merged = merge("biclique", list(range(6)), [0, 1, 2, 3, 4])
-        self.refused(AT_AN_EDGE, product(first, second, merges=[merged]), "(S24) this is no member that is left")
-
-    def test_s25(self):
-        words = "(S25) what factor 1 has in common is in no member of both, and is no joint pair"
-        # Three nodes, or one; a member of the second that holds them is not one of the first.
-        part = factor([0, 1, 2], value())
-        self.refused(BICLIQUE, product(part, factor([3, 4, 5], value())), words)
-        self.refused([(0, 1), (0, 2), (1, 2), (2, 3), (2, 4), (3, 4)], product(part, factor([3, 4, 5], value())), words)
-        # The node 1 is in the member 1-2-3 of the second only, and the nodes 1 and 2 are.
-        body = [frozenset(nodes) for nodes in [(0, 1), (0, 2), (1, 2, 3), (1, 3), (2, 3)]]
-        split = product(factor([0, 1, 4], value()), factor([2, 3], value()))
-        with self.assertRaises(notation.Reject) as caught:
-            solutions.check_solutions(split, body, "", solutions.Meter())
-        self.assertIn(words, str(caught.exception))
-        # Two nodes, but not both in one factor before.
-        row = [(0, 2), (2, 3), (1, 4), (4, 3), (0, 5), (5, 1)]
-        pieces = product(factor([0, 1], value()), factor([2, 3], value()), factor([4, 5], value()))
-        self.refused(row, pieces, words)
-        row = [(0, 1), (0, 2), (1, 2), (1, 3), (2, 3), (0, 4), (3, 4)]
-        pieces = product(factor([0, 1, 2], value()), factor([2, 3, 4], value()), factor([5, 6], value()))
-        self.refused(row, pieces, "what factor 2 has in common is in no member of both")
-
-    def test_s26(self):
-        first, second = self.pair
-        words = "(S26) rigid is an object iff two nodes are a joint"
-        for k, changed in enumerate([{**first, "rigid": None}, {**second, "rigid": None}]):
-            factors = [changed, second] if k == 0 else [first, changed]
-            self.refused(AT_TWO_NODES, product(*factors), f"factor {k}: {words}")
-        self.refused(AT_AN_EDGE, product({**self.FIRST, "rigid": self.RIGID}, self.SECOND), f"factor 0: {words}")
-        # The pair is a member where solutions are counted, and not where the factor is shown to be rigid.
-        chart = {**HALF_EDGES, "chains": [[0, 1]], "unknowns": [[0, 1], [2, 1], [3, 1]]}
-        changed = {**first, "rigid": {**self.RIGID, "chart": chart}}
-        self.refused(AT_TWO_NODES, product(changed, second), "(S4) the chains and half-edges are not the members")
-        # Without the merge with the pair two members are left, which is nothing yet.
-        bare = {**first, "solutions": one([0, 1, 2, 3, 4])}
-        self.assertEqual(product_of(AT_TWO_NODES, product(bare, second)), (1, None))
-
-    def test_s26_rigid(self):
-        """Two 4-cycles at the nodes 0 and 1, each of them flexible; and a body whose rows are dependent."""
-        cycles = [(0, 2), (0, 3), (1, 2), (1, 3), (0, 4), (0, 5), (1, 4), (1, 5)]
-        chart = {"chains": [], "half_edges": [[2, 0, 1], [3, 0, 1]], "unknowns": [[1, 1]]}
-        rigid = {"chart": chart, "centres": centres(4)}
-        factors = [factor([0, 1, 2, 3], value(), rigid), factor([4, 5, 6, 7], value(), rigid)]
-        self.refused(cycles, product(*factors), "(S26) the factor is not shown to be finite solvable")
-        sets = [*FACE_AND_EDGES, frozenset({0, 4}), frozenset({3, 4})]
-        flat = centres(4)
-        flat["values"][2] = [str((2 * int(b) - int(a)) % P) for a, b in zip(*flat["values"][:2])]
-        tetrahedron = factor([0, 1, 2, 3], value(), {"chart": TETRAHEDRON, "centres": flat})
-        halves = product(tetrahedron, factor([4, 5], value(), rigid))
-        with self.assertRaises(notation.Reject) as caught:
-            solutions.check_solutions(halves, sets, "", solutions.Meter())
-        self.assertIn("(S19) the rows of chain 0 are not independent", str(caught.exception))
-
-    def test_the_product_is_exact(self):
-        """Sixty cores with two solutions each, all at one edge."""
-        with open(os.path.join(HERE, "two_solutions.json"), encoding="utf-8") as file:
-            document = json.load(file)
-        edges = [tuple(edge) for edge in document["pieces"][0]["edges"]]
-        self.assertFalse(document["pieces"][0]["bodies"] or document["solutions"]["merges"])
-        fixed = edges[0]
-        all_edges, factors = [fixed], []
-        for k in range(60):
-            name = {v: v if v in fixed else v + 1000 * k for edge in edges for v in edge}
-            places = [0, *range(len(all_edges), len(all_edges) + len(edges) - 1)]
-            all_edges += [(name[i], name[j]) for i, j in edges[1:]]
-            factors.append(factor(places, renamed(document["solutions"], name)))
-        meter = solutions.Meter()
-        self.assertEqual(product_of(all_edges, product(*factors), meter), (2**60, 2**60))
-        self.assertEqual(notation.written(2**60), "1152921504606846976")
-        self.assertEqual(notation.written(2**53 - 1), 2**53 - 1)
-        factors[7] = {**factors[7], "solutions": {**factors[7]["solutions"], "upper": None}}
-        factors[8] = {**factors[8], "solutions": {**factors[8]["solutions"], "lower": None}}
-        self.assertEqual(product_of(all_edges, product(*factors)), (2**59, None))
-
-
-def renamed(evidence, name):
-    """The same evidence for nodes with other names."""
-    evidence = copy.deepcopy(evidence)
-    for part in [evidence["upper"], evidence["upper"]["points"], evidence["lower"]]:
-        order = sorted(name, key=name.get)
-        values = dict(zip(sorted(name), part["centres"]["values"]))
-        part["centres"]["values"] = [values[node] for node in order]
-        chart = part.get("chart", {})
-        for names in ("chains", "half_edges"):
-            chart[names] = [[name[node] for node in nodes] for nodes in chart.get(names, [])]
-        chart["unknowns"] = [[k, name[node]] for k, node in chart.get("unknowns", [])]
-    return evidence
-
-
 class Lower(Case):
     """(S19) to (S23)."""
 
@@ -962,12 +669,7 @@ class Lower(Case):
         self.rejects(BICLIQUE, "(S23) the core is not tight", lower=lower)
 
     def test_both_bounds(self):
-        lower = {"chart": HALF_EDGES, "centres": centres(5), "points": [["1", "1"]]}
         self.rejects(BICLIQUE, "neither upper nor lower, and 6 members are left")
-        merges = [merge("biclique", list(range(6)), [0, 1, 2, 3, 4])]
-        words = "one member is left, so upper and lower are null"
-        self.rejects(BICLIQUE, words, merges, lower=lower)
-        self.rejects(BICLIQUE, words, merges, upper=upper([LINEAR]))
 
 
 class Program(Case):
@@ -982,12 +684,6 @@ class Program(Case):
         lines = check.check(json.dumps(self.document).encode()).statements()
         self.assertIn("projective: finite-solvable (proof)", lines)
         self.assertIn("solutions: at least 2, at most 2 (proof)", lines)
-
-    def test_it_is_no_part(self):
-        part = {**self.document["solutions"], "lower": None}
-        self.assertEqual(bound(self.edges, upper=part["upper"]), (1, 2))
-        merges = [merge("part", list(range(12)), list(range(9)), part)]
-        self.rejects(self.edges, "(S3) the part is not shown to have one solution", merges)
 
     def test_changed_numbers(self):
         """Whatever number is changed: the evidence is refused, or it is evidence for the same."""
@@ -1046,7 +742,7 @@ class Document(Case):
     def document(self):
         # As a body it would have nothing to show here.
         document = make.make(BICLIQUE, use_bodies=False)
-        document["solutions"] = value([merge("biclique", list(range(6)), [0, 1, 2, 3, 4])])
+        document["solutions"] = value(upper([LINEAR]))
         document["claim"]["solutions"] = {"at_least": 1, "at_most": 1, "strength": "proof", "error_log2": None}
         document["claim"]["verdict"]["value"] = "solvable"
         return document
@@ -1070,9 +766,9 @@ class Document(Case):
         self.refused(claim("at_least", 2), "at_least is claimed 2, the evidence gives 1")
         self.refused(claim("at_most", 2), "at_most is claimed 2, the evidence gives 1")
         self.refused(claim("at_most", None), "at_most is claimed None, the evidence gives 1")
-        self.refused(claim("at_most", "1"), "at_most: 1 is below 9007199254740992")
+        self.refused(claim("at_most", "1"), "at_most is not an int")
         self.refused(claim("at_most", -1), "at_most: -1 is below 0")
-        self.refused(claim("at_least", None), "at_least is not a big")
+        self.refused(claim("at_least", None), "at_least is not an int")
         self.refused(claim("strength", "error-bound"), "error_log2 is not an int")
         self.refused(claim("value", 1), "the member value is unknown")
         self.refused(lambda d: d["claim"].pop("solutions"), "the member solutions is missing")

@@ -204,8 +204,8 @@ fn check_solutions(claim: Option<&SolutionsClaim>, found: Option<Count>) -> Chec
         }
     };
     let claimed = Count {
-        at_least: claim.at_least.clone(),
-        at_most: claim.at_most.clone(),
+        at_least: claim.at_least,
+        at_most: claim.at_most,
     };
     let strength = (claim.strength.as_str(), claim.error_log2);
     let (found, _) = compare((&claimed, found), strength, Ok(Vec::new()))?;

@@ -1,7 +1,6 @@
 //! The JSON text as typed values, by the grammar of sections 1, 3 and 5 to 7 of the specification.
 
 pub(crate) mod base_lines;
-mod number;
 pub(crate) mod own_frame;
 pub(crate) mod solutions;
 
@@ -12,8 +11,6 @@ use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{Deserializer, Error, IntoDeserializer, MapAccess, SeqAccess, Visitor};
 use solutions::Solutions;
 use std::fmt;
-
-pub use number::Number;
 
 /// Nodes i < j (which the reader does not see to).
 pub(crate) type Pair = [u32; 2];
@@ -37,7 +34,7 @@ objects! {
     RankClaim { value: i64, required: i64, strength: String, error_log2: Option<i64> }
     ComponentsClaim { value: usize, strength: String, error_log2: Option<i64> }
     SolutionsClaim {
-        at_least: Number, at_most: Option<Number>, strength: String, error_log2: Option<i64>,
+        at_least: usize, at_most: Option<usize>, strength: String, error_log2: Option<i64>,
     }
     Body { seed: Seed, add: Vec<[u32; 3]>, merge: Vec<Merge> }
     Merge { with: Vec<Source>, at: Vec<u32> }

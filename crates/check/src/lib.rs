@@ -27,7 +27,7 @@
 //! | motions tell classes apart | 7, 9 | 6.4, 6.7, 6.8, 13.13, 13.19 | `kernel` |
 //! | unknown base lines | 13 | 13.26, 13.27 | `base_lines`, with `frames` and `matrix` |
 //! | a frame of its own | 16 | 13.29 to 13.31 | `own_frame` |
-//! | the number of solutions | 12 | 10.2 to 10.17, 19.3, 19.6 | `solutions`, a file for each kind |
+//! | the number of solutions | 12 | 10.2 to 10.10, 19.3, 19.6 | `solutions`, a file for each kind |
 //! | what is determined at given cameras | 14 | 16.1 to 16.4 | `here`, all of it |
 //! | what is determined of intrinsics | 15 | 17.3, 17.6 to 17.9 | `intrinsics`, all of it |
 //! | contradictions between pairs, and whose numbers they are | contradictions.md | | `contradictions`, all of it |
@@ -84,7 +84,6 @@ pub use contradictions::{
 };
 pub use displacements::Displacements;
 pub use document::Model;
-pub use document::Number;
 pub use expected::{Expected, VERDICTS};
 pub use graph::Graph;
 pub use intrinsics::{IntrinsicsCertificate, VerifiedIntrinsics};

@@ -4,7 +4,7 @@
 use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
-use viewcert_check::{Certificate, Count, Failure, Graph, Limits, Number, Verdict, check};
+use viewcert_check::{Certificate, Count, Failure, Graph, Limits, Verdict, check};
 
 /// 2^61 - 1, the modulus of these certificates.
 const P: u64 = (1 << 61) - 1;
@@ -18,15 +18,12 @@ fn text_of(name: &str) -> Value {
     named(&format!("solutions/{name}"))
 }
 
-/// Where things stand that are changed most: upper and lower bound, and in `part` the evidence of
-/// the part.
+/// Where things stand that are changed most: upper and lower bound, and the merges of the first round.
 fn expand(pointer: &str) -> String {
     for (short, long) in [
         ("U", "/solutions/upper"),
         ("L", "/solutions/lower"),
-        ("M", "/solutions/merges"),
-        ("N", "/solutions/merges/0/solutions"),
-        ("P", "/solutions/product"),
+        ("M", "/solutions/rounds/0/merges"),
     ] {
         if let Some(rest) = pointer.strip_prefix(short) {
             return format!("{long}{rest}");
@@ -63,9 +60,7 @@ fn refused(name: &str, changes: &[(&str, Value)], wanted: &str) {
     let wanted = wanted
         .replace("U.", "solutions.upper.")
         .replace("L.", "solutions.lower.")
-        .replace("M[", "solutions.merges[")
-        .replace("N.", "solutions.merges[0].solutions.")
-        .replace("P[", "solutions.product[");
+        .replace("M[", "solutions.rounds[0].merges[");
     assert!(reason.starts_with(&wanted), "{name} {changes:?}: {reason}");
 }
 
@@ -131,17 +126,12 @@ fn what_the_laboratory_has_is_refused_by_name() {
 #[test]
 fn all_are_verified() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/solutions");
-    assert_eq!(fs::read_dir(folder).unwrap().count(), 12);
+    assert_eq!(fs::read_dir(folder).unwrap().count(), 7);
     for (name, solutions) in [
         ("linear", 1),
-        ("part", 1),
         ("support", 1),
         ("two", 2),
         ("absent", 2),
-        ("product", 4),
-        ("pairs", 1),
-        ("balanced", 1),
-        ("choices", 1),
         ("link", 1),
         ("rounds", 1),
         ("stresses", 1),
@@ -150,8 +140,8 @@ fn all_are_verified() {
         let verified =
             check(text.as_bytes(), None).unwrap_or_else(|error| panic!("{name}: {error}"));
         let exactly = Count {
-            at_least: Number::from(solutions),
-            at_most: Some(Number::from(solutions)),
+            at_least: solutions,
+            at_most: Some(solutions),
         };
         assert_eq!(verified.solutions, Some(exactly), "{name}");
         let solvable = verified.verdict.0 == Verdict::Solvable;
@@ -249,7 +239,7 @@ fn claim_and_document_have_solutions_or_neither_has() {
 fn only_for_one_piece_that_is_finite_solvable() {
     for name in ["square", "triangle", "path", "square-calibrated"] {
         let mut value = named(&format!("certificates/{name}"));
-        value["solutions"] = json!({"merges": [], "upper": null, "lower": null});
+        value["solutions"] = json!({"upper": null, "lower": null});
         value["claim"]["solutions"] = value_at("support", "/claim/solutions");
         let wanted = "solutions: the graph is not one piece that is finite solvable, in the \
                       projective model";
@@ -260,7 +250,7 @@ fn only_for_one_piece_that_is_finite_solvable() {
 #[test]
 fn evidence_of_the_right_kind() {
     refused(
-        "part",
+        "link",
         &[("L", value_at("two", "L"))],
         "solutions: one member is left, and nothing else is to be shown",
     );
@@ -269,117 +259,39 @@ fn evidence_of_the_right_kind() {
         &[("U", json!(null))],
         "solutions: neither an upper nor a lower bound",
     );
-    refused(
-        "part",
-        &[("N/lower", value_at("two", "L"))],
-        "M[0].solutions: a lower bound for a part, of which one solution is to be shown",
-    );
-    // The whole graph as a part of itself, with two solutions.
-    let part = json!({"merges": [], "upper": value_at("two", "U"), "lower": null});
-    let members: Vec<usize> = (0..12).collect();
-    let nodes: Vec<usize> = (0..10).collect();
-    let merge = json!({"rule": "part", "with": members, "at": nodes, "solutions": part});
-    refused(
-        "two",
-        &[
-            ("M", json!([merge])),
-            ("U", json!(null)),
-            ("L", json!(null)),
-        ],
-        "M[0]: the part is not shown to have one solution",
-    );
 }
 
+/// Members 0 and 1 of `link` are bodies; 23 is what the link makes of six members, and 24 the tripod.
 #[test]
 fn s1_what_is_merged() {
-    let wanted = "M[1]: `with` is not an increasing list of two members or more";
-    refused("part", &[("M/1/with", json!([14, 6]))], wanted);
-    refused("part", &[("M/1/with", json!([14]))], wanted);
-    refused("part", &[("M/1/with", json!([14, 14]))], wanted);
-    refused(
-        "part",
-        &[("M/1/with", json!([0, 14]))],
-        "M[1]: 0 is no member that is left",
-    );
-    refused(
-        "part",
-        &[("M/1/with", json!([6, 15]))],
-        "M[1]: 15 is no member that is left",
-    );
+    let wanted = "M[2]: `with` is not an increasing list of two members or more";
+    for with in [json!([24, 12]), json!([24]), json!([24, 24])] {
+        refused("link", &[("M/2/with", with)], wanted);
+    }
+    for (with, number) in [(json!([0, 24]), 0), (json!([12, 25]), 25)] {
+        let wanted = format!("M[2]: {number} is no member that is left");
+        refused("link", &[("M/2/with", with)], &wanted);
+    }
 }
 
 #[test]
 fn s2_rules() {
-    refused(
-        "part",
-        &[("M/1/at", json!([2, 5, 8]))],
-        "M[1]: `shared` is no rule for 3 nodes",
-    );
-    refused(
-        "part",
-        &[("M/1/rule", json!("cycle"))],
-        "M[1]: `cycle` is no rule for 2 nodes",
-    );
-    refused(
-        "part",
-        &[("M/1/at", json!([2, 2]))],
-        "M[1]: the nodes of `at` are not different",
-    );
-    refused(
-        "part",
-        &[("M/1/solutions", value_at("part", "N"))],
-        "M[1]: evidence for a rule that needs none",
-    );
-    refused(
-        "part",
-        &[("M/2/at", json!([3, 7, 8]))],
-        "M[2]: no member of `with` holds 7 and 8",
-    );
-    refused(
-        "part",
-        &[("M/2/with", json!([11, 15]))],
-        "M[2]: no member of `with` holds 5 and 8",
-    );
-    refused(
-        "part",
-        &[("N/merges/0/at", json!([6, 7, 1, 2, 4]))],
-        "N.merges[0]: no member of `with` holds 6 and 4",
-    );
-    refused(
-        "part",
-        &[("M/1/with", json!([6, 11, 14]))],
-        "M[1]: member 11 holds no pair of the rule",
-    );
-}
-
-#[test]
-fn s3_parts() {
-    refused(
-        "part",
-        &[("M/0/at", json!([1, 0, 2, 3, 4, 5, 6, 7]))],
-        "M[0]: `at` is not an increasing list of nodes",
-    );
-    refused(
-        "part",
-        &[("M/0/with", json!([0, 1, 2, 3, 4, 5, 7, 8, 9, 10, 11, 12]))],
-        "M[0]: member 11 has fewer than two nodes in `at`",
-    );
-    refused(
-        "part",
-        &[("M/0/solutions", json!(null))],
-        "M[0]: a part without evidence that it has one solution",
-    );
-    // The evidence of another part: with a further edge, and without one.
-    refused(
-        "part",
-        &[("M/0/with", json!([0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12]))],
-        "N.merges[0]: no member of `with` holds 7 and 3",
-    );
-    refused(
-        "part",
-        &[("M/0/with", json!([1, 2, 3, 4, 5, 7, 8, 9, 10, 12]))],
-        "N.merges[0]: no member of `with` holds 6 and 1",
-    );
+    for (member, new, wanted) in [
+        ("at", json!([3, 6, 8]), "`shared` is no rule for 3 nodes"),
+        ("rule", json!("cycle"), "`cycle` is no rule for 2 nodes"),
+        ("rule", json!("part"), "`part` is no rule for 2 nodes"),
+        ("at", json!([3, 3]), "the nodes of `at` are not different"),
+        ("at", json!([3, 10]), "member 12 holds no pair of the rule"),
+        ("at", json!([3, 12]), "no member of `with` holds 3 and 12"),
+        (
+            "with",
+            json!([12, 13, 24]),
+            "member 13 holds no pair of the rule",
+        ),
+    ] {
+        let place = format!("M/2/{member}");
+        refused("link", &[(&place, new)], &format!("M[2]: {wanted}"));
+    }
 }
 
 #[test]
@@ -399,16 +311,6 @@ fn s4_the_members_that_are_left() {
         "two",
         &[("L/chart/half_edges/0", json!([2, 6, 9]))],
         &format!("L.{wanted}"),
-    );
-    // Without the edge 4-7 the edge 0-4 shares but one node with the others.
-    refused(
-        "part",
-        &[
-            ("M/0/with", json!([0, 1, 2, 3, 4, 5, 7, 8, 9, 10])),
-            ("N/upper/chart/chains", json!([[1, 6], [0, 6], [0]])),
-            ("N/upper/chart/half_edges", json!([[5, 0, 1]])),
-        ],
-        "N.upper.chart: a member has fewer than two shared nodes",
     );
 }
 
@@ -886,112 +788,6 @@ fn s20_to_s22_points_with_a_fault() {
     );
 }
 
-/// The rows of `balanced` are six half-edges, two between 0 and 1, 1 and 2, 0 and 2 each; the second, fourth,
-/// fifth and sixth have an unknown. All minors have three rows freed and all columns, and one shift.
-#[test]
-fn s13_shifts() {
-    let step = "U.steps[0] (support)";
-    let minors = value_at("balanced", "U/steps/0/minors");
-    let minors = minors.as_array().unwrap();
-    assert!(minors.iter().all(|minor| minor["plus"] == minor["minus"]));
-    for minor in minors {
-        let sizes = ["plus", "cols", "shifts"].map(|list| minor[list].as_array().unwrap().len());
-        assert_eq!(sizes, [3, 9, 1]);
-    }
-    // The last one has the unknowns 1 and 3; the others are those of rows that are freed.
-    assert_eq!(minors[8]["rows"], json!([0, 3, 5]));
-    let shift = minors[8]["shifts"][0].clone();
-    assert_eq!(shift, json!([1, 0, 0, 0]));
-    for (shifts, wanted) in [
-        (json!([shift, shift]), "`shifts` is not increasing"),
-        (
-            json!([[1, 0, 0, 0], [0, 0, 0, 0]]),
-            "`shifts` is not increasing",
-        ),
-        (
-            json!([[0, 0, 0]]),
-            "the shift [0, 0, 0] is not within the bounds",
-        ),
-        (
-            json!([[0, 0, 0, 0, 0]]),
-            "the shift [0, 0, 0, 0, 0] is not within the bounds",
-        ),
-        (
-            json!([[2, 0, 0, 0]]),
-            "the shift [2, 0, 0, 0] is not within the bounds",
-        ),
-        (
-            json!([[0, 1, 0, 0]]),
-            "the shift [0, 1, 0, 0] is not within the bounds",
-        ),
-    ] {
-        refused(
-            "balanced",
-            &[("U/steps/0/minors/8/shifts", shifts)],
-            &format!("{step}.minors[8]: {wanted}"),
-        );
-    }
-    let null = changed("balanced", &[("U/steps/0/minors/8/shifts", json!(null))]);
-    assert!(reason(&null).starts_with("invalid type: null"));
-    // One shift less is one row less. With all shifts, or another one, exponents are not absent.
-    refused(
-        "balanced",
-        &[("U/steps/0/minors/8/shifts", json!([]))],
-        &format!("{step}: the coefficients have rank 8 for 10 exponents"),
-    );
-    let wanted = "the exponent [1, 0, 1, 1] is said to be absent, but there may be a coefficient";
-    refused(
-        "balanced",
-        &[("U/steps/0/minors/8/shifts", json!([[1, 0, 1, 0]]))],
-        &format!("{step}.minors[8]: {wanted}"),
-    );
-    let mut all = text_of("balanced");
-    let minor = at(&mut all, "U/steps/0/minors/8").as_object_mut().unwrap();
-    minor.remove("shifts").unwrap();
-    assert!(reason(&all).ends_with(wanted));
-}
-
-/// (S14) asks for all choices of sides: 4 is not eliminated here, and the unknown of its edge to 1 is in two
-/// rows, of which one is to be chosen. With one column of 1 it is the first row, or the second.
-#[test]
-fn s14_all_choices() {
-    let chart = json!({
-        "chains": [[0, 4], [4, 1]],
-        "half_edges": [[3, 0, 1], [5, 1, 2], [6, 1, 2], [7, 0, 2], [8, 0, 2]],
-        "unknowns": [[1, 1], [4, 2], [5, 2], [6, 2]],
-    });
-    // Columns 3 to 5 are those of 1, the last three those of 4. Row 2 is not zero in the columns 3 and 4, row 3
-    // in 3 and 5.
-    let with = |cols: Value, absent: Value, wanted: &str| {
-        let rows: Vec<usize> = (0..9).collect();
-        let minor = json!({"rows": rows, "plus": [], "minus": [], "cols": cols});
-        let step = json!({
-            "kind": "support", "unknowns": [0, 1, 2, 3], "bounds": [2, 1, 1, 1],
-            "absent": absent, "minors": [minor],
-        });
-        let changes = [("U/chart", chart.clone()), ("U/steps", json!([step]))];
-        refused(
-            "balanced",
-            &changes,
-            &format!("U.steps[0] (support){wanted}"),
-        );
-    };
-    for column in [4, 5] {
-        with(
-            json!([0, 1, 2, column, 6, 7, 8, 9, 10]),
-            json!([[1, 1, 1, 0]]),
-            ".minors[0]: the exponent [1, 1, 1, 0] is said",
-        );
-    }
-    // Without columns of 4 each of the two rows may take its side at 1, but just one of them has to.
-    let rank = ": the coefficients have rank 1 for 23 exponents";
-    with(
-        json!([0, 1, 2, 3, 4, 5, 6, 7, 8]),
-        json!([[1, 1, 1, 0]]),
-        rank,
-    );
-}
-
 #[test]
 fn s23_the_points_of_a_tight_core() {
     let chart = value_at("support", "U/chart");
@@ -1066,176 +862,11 @@ fn limits() {
     assert!(least > 0);
 }
 
-/// Two cores with two solutions each, glued at the edge 1-3, which is member 3 of both.
-#[test]
-fn s24_members_of_factors() {
-    let of = |k: usize| value_at("product", &format!("P/{k}/with"));
-    let changed = |k: usize, change: &dyn Fn(&mut Vec<Value>)| {
-        let mut with = of(k).as_array().unwrap().clone();
-        change(&mut with);
-        json!(with)
-    };
-    let factors = value_at("product", "P");
-    for (place, new, wanted) in [
-        (
-            "P",
-            json!([factors[0]]),
-            "solutions: a product of less than two factors",
-        ),
-        (
-            "P",
-            json!([]),
-            "solutions: a product of less than two factors",
-        ),
-        (
-            "P/1/with",
-            json!([3]),
-            "P[1]: `with` is not an increasing list of two members or more",
-        ),
-        (
-            "P/1/with",
-            changed(1, &|with| with.swap(0, 1)),
-            "P[1]: `with` is not an increasing list of two members or more",
-        ),
-        (
-            "P/1/with",
-            changed(1, &|with| with.insert(1, json!(3))),
-            "P[1]: `with` is not an increasing list of two members or more",
-        ),
-        (
-            "P/1/with",
-            changed(1, &|with| with.push(json!(23))),
-            "P[1]: 23 is no member that is left",
-        ),
-        (
-            "P/1/with",
-            changed(1, &|with| with.truncate(11)),
-            "solutions: member 22 is in no factor",
-        ),
-    ] {
-        refused("product", &[(place, new)], wanted);
-    }
-    // A member that was used up is none any more: two edges as if they shared two nodes.
-    let merge =
-        json!({"rule": "biclique", "with": [0, 1], "at": [0, 1, 2, 3, 4], "solutions": null});
-    refused(
-        "product",
-        &[("M", json!([merge]))],
-        "M[0]: no member of `with` holds",
-    );
-}
-
-/// A factor may have one member in common with those before it, or two nodes.
-#[test]
-fn s25_what_factors_have_in_common() {
-    let common = "P[1] has in common lies in no member of both, and is no pair of one factor";
-    let common = format!("solutions: what {}", common.replace("P[", "product["));
-    // A member more: edges that are not in a member of both.
-    let mut with = value_at("product", "P/1/with");
-    with.as_array_mut().unwrap().insert(0, json!(2));
-    refused("product", &[("P/1/with", with)], &common);
-    // The edge is in one of them only: its nodes are a pair then, and the factors not shown to be rigid.
-    let mut with = value_at("product", "P/1/with");
-    with.as_array_mut().unwrap().remove(0);
-    let wanted = "P[0]: `rigid` is missing where two nodes are a joint";
-    refused("product", &[("P/1/with", with)], wanted);
-    // In another order the same is verified.
-    let mut swapped = value_at("product", "P");
-    swapped.as_array_mut().unwrap().swap(0, 1);
-    let swapped = changed("product", &[("P", swapped)]);
-    let verified = check(swapped.to_string().as_bytes(), None).unwrap();
-    assert!(verified.solutions.unwrap().at_least == 4);
-}
-
-/// Two nodes that are not adjacent: both factors are finite solvable without the pair.
-#[test]
-fn s26_rigid_factors() {
-    for k in [0, 1] {
-        let rigid = format!("P/{k}/rigid");
-        let wanted = format!("P[{k}]: `rigid` is missing where two nodes are a joint");
-        refused("pairs", &[(&rigid, json!(null))], &wanted);
-    }
-    let rigid = value_at("pairs", "P/0/rigid");
-    let wanted = "P[0]: `rigid` where no two nodes are a joint";
-    refused("product", &[("P/0/rigid", rigid.clone())], wanted);
-    // The pair is no member where the factor is shown to be rigid.
-    let mut chains = rigid["chart"]["chains"].clone();
-    chains.as_array_mut().unwrap().push(json!([0, 1]));
-    let wanted = "P[0].rigid.chart: the chains and half-edges are not the members";
-    refused("pairs", &[("P/0/rigid/chart/chains", chains)], wanted);
-    let rigid = value_at("pairs", "P/1/rigid");
-    refused("pairs", &[("P/0/rigid", rigid)], wanted);
-    // Centres in a plane: the rank is too small.
-    let mut flat = value_at("pairs", "P/0/rigid/centres/values");
-    for centre in flat.as_array_mut().unwrap() {
-        centre[2] = json!("0");
-    }
-    refused(
-        "pairs",
-        &[("P/0/rigid/centres/values", flat)],
-        "P[0].rigid.",
-    );
-}
-
-#[test]
-fn products_and_other_evidence() {
-    let upper = value_at("product", "P/0/solutions/upper");
-    refused(
-        "product",
-        &[("U", upper)],
-        "solutions: a product, and bounds besides",
-    );
-    let lower = value_at("product", "P/0/solutions/lower");
-    refused(
-        "product",
-        &[("L", lower)],
-        "solutions: a product, and bounds besides",
-    );
-    // A part has none.
-    let mut part = value_at("part", "N");
-    part["product"] = json!([]);
-    refused(
-        "part",
-        &[("N", part)],
-        "M[0].solutions: a product for a part",
-    );
-    // What is claimed is the product.
-    let claim = "/claim/solutions/at_least";
-    refused(
-        "product",
-        &[(claim, json!(2))],
-        "claim.solutions: `2 to 4` is claimed",
-    );
-    refused(
-        "product",
-        &[(claim, json!("4"))],
-        "invalid value: string \"4\"",
-    );
-    refused(
-        "product",
-        &[(claim, json!(-4))],
-        "invalid type: integer `-4`",
-    );
-    // A factor may stay open, from either side.
-    for (member, said) in [("upper", "at least 4"), ("lower", "2 to 4")] {
-        let [least, most] = match member {
-            "upper" => [json!(4), json!(null)],
-            _ => [json!(2), json!(4)],
-        };
-        let mut value = text_of("product");
-        value["solutions"]["product"][1]["solutions"][member] = json!(null);
-        value["claim"]["solutions"]["at_least"] = least;
-        value["claim"]["solutions"]["at_most"] = most;
-        let verified = check(value.to_string().as_bytes(), None).unwrap();
-        assert_eq!(verified.solutions.unwrap().to_string(), said);
-    }
-}
-
 /// Whatever is changed in the evidence, the certificate is rejected or proves the same.
 #[test]
 fn no_changed_scalar_changes_what_is_verified() {
     let (mut rejected, mut tried) = (0, 0);
-    for name in ["part", "support", "two", "absent", "product", "pairs"] {
+    for name in ["link", "support", "two", "absent"] {
         let original = text_of(name);
         let said = check(original.to_string().as_bytes(), None)
             .unwrap()
@@ -1263,7 +894,7 @@ fn no_changed_scalar_changes_what_is_verified() {
             }
         }
     }
-    assert!(rejected > 700 && tried > rejected, "{rejected} of {tried}");
+    assert!(rejected > 500 && tried > rejected, "{rejected} of {tried}");
 }
 
 /// Where numbers, strings and nulls stand.
@@ -1289,7 +920,7 @@ fn linked(from: usize, merges: &[(&str, &[usize], &[u32])]) -> Value {
     let list = at(&mut value, "M").as_array_mut().unwrap();
     list.truncate(from);
     for (rule, with, at) in merges {
-        list.push(json!({"rule": rule, "with": with, "at": at, "solutions": null}));
+        list.push(json!({"rule": rule, "with": with, "at": at}));
     }
     value
 }
@@ -1316,7 +947,7 @@ fn s2_tripods_and_links() {
     let end = "an end of the path of the link is where none can be";
     let first = |rule, with: &[usize], at: &[u32], wanted: &str| {
         let reason = reason(&linked(0, &[(rule, with, at)]));
-        assert_eq!(reason, format!("solutions.merges[0]: {wanted}"));
+        assert_eq!(reason, format!("solutions.rounds[0].merges[0]: {wanted}"));
     };
     first(
         "link",
@@ -1366,11 +997,11 @@ fn s2_tripods_and_links() {
         let mut others = others.to_vec();
         others.dedup();
         let reason = reason(&linked(0, &[triangle, ("link", &others, &at)]));
-        assert_eq!(reason, format!("solutions.merges[1]: {apart}"));
+        assert_eq!(reason, format!("solutions.rounds[0].merges[1]: {apart}"));
     }
     let second = |with: &[usize], at: &[u32], wanted: &str| {
         let reason = reason(&linked(1, &[("tripod", with, at)]));
-        assert_eq!(reason, format!("solutions.merges[1]: {wanted}"));
+        assert_eq!(reason, format!("solutions.rounds[0].merges[1]: {wanted}"));
     };
     // 5 hangs on the body as 4 in K_4 with 04, 45 and 51 does: with a node of the body it is false.
     let body = "no member of `with` has the first three nodes of `at` and none of the others";
@@ -1464,19 +1095,6 @@ fn u1_to_u4_rounds() {
     round_refused(0, "merges/0/at", json!([12, 1, 9]), pair);
     let other = "R[0].merges[0]: member 0 holds no pair of the rule";
     round_refused(0, "merges/0/with", json!([0, 7, 15]), other);
-    let evidence = json!({"merges": [], "upper": null, "lower": null});
-    round_refused(
-        0,
-        "merges/0/solutions",
-        evidence,
-        "R[0].merges[0]: evidence for a rule",
-    );
-    round_refused(
-        0,
-        "merges/0/rule",
-        json!("part"),
-        "R[0].merges[0]: `part` is no rule for 3 nodes",
-    );
     // Rounds in another order, none of them, and one that is missing.
     let rounds = value_at("rounds", "/solutions/rounds");
     let order = |places: &[usize]| -> Value { places.iter().map(|&k| rounds[k].clone()).collect() };
@@ -1487,26 +1105,6 @@ fn u1_to_u4_rounds() {
     ] {
         let wanted = wanted.replace("R[", "solutions.rounds[");
         refused("rounds", &[("/solutions/rounds", order(places))], &wanted);
-    }
-    let removed = &rounds[0]["merges"][0];
-    let reason = reason(&changed("rounds", &[("M/0", removed.clone())]));
-    assert!(
-        reason.starts_with("solutions.merges[0]: 7 is no member"),
-        "{reason}"
-    );
-    refused(
-        "rounds",
-        &[("M/0/rule", json!("removed"))],
-        "M[0]: `removed` is no rule for 3 nodes",
-    );
-    for (name, place) in [("part", "N"), ("product", "P/0/solutions")] {
-        let mut value = text_of(name);
-        at(&mut value, place)["rounds"] = json!([]);
-        let reason = self::reason(&value);
-        assert!(
-            reason.ends_with(": rounds inside of `solutions`"),
-            "{reason}"
-        );
     }
 }
 
@@ -1576,11 +1174,6 @@ fn u5_and_u6_stresses() {
     wrong(&[(pairs[1], json!([9, 10]))], pair);
     let more = ".merges[0]: member 0 holds no pair of the rule";
     wrong(&[(pairs[1], json!([0, 9, 10, 11]))], more);
-    let solutions = json!({"merges": [], "upper": null, "lower": null});
-    wrong(
-        &[("merges/0/solutions", solutions)],
-        ".merges[0]: evidence for a rule",
-    );
     // Three rows a stress: two of them, and one three times, are not enough.
     for (stresses, rank) in [
         (json!([stresses[0], stresses[1]]), 6),
@@ -1589,7 +1182,7 @@ fn u5_and_u6_stresses() {
         let rank = format!(".merges[0]: the stresses have rank {rank} at node 4, not 8");
         wrong(&[("stresses", stresses)], &rank);
     }
-    let other = json!({"rule": "stressed", "with": [7, 12], "at": [2, 1, 6], "solutions": null});
+    let other = json!({"rule": "stressed", "with": [7, 12], "at": [2, 1, 6]});
     let rank = ".merges[0]: the stresses have rank";
     wrong(&[("merges/0", other.clone())], rank);
     // Without stresses, and in no round.
@@ -1600,14 +1193,14 @@ fn u5_and_u6_stresses() {
         .remove("stresses");
     let wanted = "solutions.rounds[0].merges[0]: `stressed` in a round without `stresses`";
     assert!(reason(&value).starts_with(wanted), "{}", reason(&value));
-    let wanted = "M[0]: `stressed` is no rule for 3 nodes";
-    refused("part", &[("M/0", other)], wanted);
+    refused("rounds", &[("M/0", other)], "M[0]: `stressed` in a round without `stresses`");
 }
 
 #[test]
 fn one_solution_is_finitely_many() {
     let mut value = text_of("rounds");
-    at(&mut value, "M").as_array_mut().unwrap().pop();
+    let last = at(&mut value, "/solutions/rounds/2/merges");
+    last.as_array_mut().unwrap().pop();
     assert_eq!(
         reason(&value),
         "solutions: `one-solution` where the merges leave several members"

@@ -14,7 +14,6 @@ use serde::Serialize;
 use std::io::{self, Write};
 use viewcert::certificate::hex;
 use viewcert::decide::{Component, SolutionCount, Verdict};
-use viewcert::solutions::Number;
 use viewcert_advice::Advice;
 use viewcert_formats::NamedGraph;
 
@@ -248,9 +247,9 @@ impl From<&Report<'_>> for AnswerLine {
 /// How many solutions there are, if finitely many.
 #[derive(Serialize)]
 struct SolutionsLine {
-    exactly: Option<Number>,
-    at_least: Number,
-    at_most: Option<Number>,
+    exactly: Option<usize>,
+    at_least: usize,
+    at_most: Option<usize>,
     strength: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     because: Option<String>,
@@ -261,9 +260,9 @@ struct SolutionsLine {
 impl From<&SolutionCount> for SolutionsLine {
     fn from(count: &SolutionCount) -> Self {
         Self {
-            exactly: count.exactly().cloned(),
-            at_least: count.at_least.clone(),
-            at_most: count.at_most.clone(),
+            exactly: count.exactly(),
+            at_least: count.at_least,
+            at_most: count.at_most,
             strength: count.strength().name(),
             because: count.because(),
             full_may_tell_more: count.full_may_tell_more,

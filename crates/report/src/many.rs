@@ -212,7 +212,7 @@ fn solutions(verdict: &Verdict) -> String {
     let Some(known) = verdict.solutions.as_ref() else {
         return String::new();
     };
-    match (&known.at_least, &known.at_most) {
+    match (known.at_least, known.at_most) {
         (least, Some(most)) if least == most => least.to_string(),
         (least, Some(most)) => format!("{least}-{most}"),
         (least, None) => format!("{least}-"),

@@ -9,7 +9,6 @@ use clap::Args;
 use std::io::Write;
 use std::ops::RangeInclusive;
 use viewcert::decide::Options;
-use viewcert::solutions::Number;
 use viewcert_lab_catalog::progress::Progress;
 use viewcert_session::Session;
 use viewcert_session::exit::GOOD;
@@ -43,7 +42,7 @@ pub fn run(session: &Session, arguments: &Arguments) -> Result<u8> {
         let wish = (arguments.places, arguments.seed);
         let found = tally(&graphs, &options, wish, |more| progress.done(more))?;
         progress.finish();
-        for (solutions, tally) in &found {
+        for (&solutions, tally) in &found {
             write_row(&mut out, nodes, solutions, tally)?;
         }
         out.flush().context("standard output")?;
@@ -55,7 +54,7 @@ pub fn run(session: &Session, arguments: &Arguments) -> Result<u8> {
 fn write_row(
     out: &mut impl Write,
     nodes: usize,
-    solutions: &Number,
+    solutions: usize,
     tally: &Tally,
 ) -> std::io::Result<()> {
     let solutions = solutions.to_string();

@@ -9,7 +9,6 @@ use std::io::Write;
 use std::ops::RangeInclusive;
 use std::time::Instant;
 use viewcert::decide::Options;
-use viewcert::solutions::Number;
 use viewcert_lab_catalog::progress::Progress;
 use viewcert_session::Session;
 use viewcert_session::exit::GOOD;
@@ -78,7 +77,7 @@ pub fn run(session: &Session, arguments: &Arguments) -> Result<u8> {
 }
 
 /// How many graphs have each number of solutions.
-fn in_words(exactly: &BTreeMap<Number, usize>) -> String {
+fn in_words(exactly: &BTreeMap<usize, usize>) -> String {
     let words = exactly
         .iter()
         .map(|(solutions, graphs)| format!("{solutions}: {graphs}"));
@@ -98,8 +97,8 @@ fn write_excesses(out: &mut impl Write, tallies: &[(usize, Tally)]) -> std::io::
 }
 
 fn write_open(out: &mut impl Write, graph: &Bounds) -> std::io::Result<()> {
-    let most = graph.at_most.as_ref();
-    let most = most.map_or("unknown".into(), Number::to_string);
+    let most = graph.at_most;
+    let most = most.map_or("unknown".into(), |most| most.to_string());
     let excess = graph
         .excess
         .map_or(String::new(), |excess| format!(", excess {excess}"));

@@ -13,7 +13,6 @@ use std::path::PathBuf;
 use std::time::Instant;
 use viewcert::decide::{CountSolutions, Options, Question, VerdictError, decide};
 use viewcert::graph::graph6;
-use viewcert::solutions::Number;
 use viewcert_formats::csv;
 use viewcert_formats::{NamedGraph, ReadOptions, read_graphs};
 use viewcert_lab_catalog::progress::Progress;
@@ -52,8 +51,8 @@ struct Row {
     pairs: usize,
     left: usize,
     graph6: String,
-    at_least: Number,
-    at_most: Option<Number>,
+    at_least: usize,
+    at_most: Option<usize>,
     seconds: f64,
 }
 
@@ -156,10 +155,7 @@ const COLUMNS: [&str; 9] = [
 
 impl Row {
     fn cells(&self, graph: &str) -> [String; 9] {
-        let most = self
-            .at_most
-            .as_ref()
-            .map_or(String::new(), Number::to_string);
+        let most = self.at_most.map(|most| most.to_string());
         [
             graph.into(),
             self.sample.to_string(),
@@ -167,14 +163,14 @@ impl Row {
             self.pairs.to_string(),
             self.left.to_string(),
             self.at_least.to_string(),
-            most,
+            most.unwrap_or_default(),
             format!("{:.3}", self.seconds),
             self.graph6.clone(),
         ]
     }
 
     fn solutions(&self) -> String {
-        match (&self.at_least, &self.at_most) {
+        match (self.at_least, self.at_most) {
             (least, Some(most)) if least == most => least.to_string(),
             (least, Some(most)) => format!("{least}-{most}"),
             (least, None) => format!("{least}-"),

@@ -24,7 +24,7 @@ use viewcert::graph::{Graph, sha256};
 use viewcert::linalg::Ring;
 use viewcert::linalg::integer::Integer;
 use viewcert::linalg::prime::PrimeField;
-use viewcert::solutions::{Merge, Solutions};
+use viewcert::solutions::Solutions;
 
 /// The largest coordinate of a centre.
 const COORDINATE: u64 = 20;
@@ -52,14 +52,16 @@ pub struct Search<'a> {
 impl<'a> Search<'a> {
     /// A search for a graph without known parts whose solutions were counted by
     /// [`decide`](viewcert::decide::decide) or [`count`](viewcert::solutions::count()). `None` unless they are two to eight,
-    /// known exactly by points of a tight core that is not a factor, and the nodes are 40 at most.
+    /// known exactly by points of a tight core, and the nodes are 40 at most.
     pub fn new(graph: &'a Graph, solutions: &'a Solutions, seed: u64) -> Option<Self> {
         let contraction = Contraction::new(graph, Model::Projective);
         let finals = contraction.finals.iter();
         let bodies = finals.map(|&k| contraction.bodies[k as usize].nodes.clone());
         let edges = contraction.loose.iter().map(|&(i, j)| vec![i, j]);
-        let members: Vec<Vec<u32>> = bodies.chain(edges).collect();
-        let number = solutions.exactly().map(u64::try_from)?.ok()? as usize;
+        let mut members: Vec<Vec<u32>> = bodies.chain(edges).collect();
+        members.iter_mut().for_each(|member| member.sort_unstable());
+        members.sort_unstable();
+        let number = solutions.exactly()?;
         // Theorem 10.18 is about tight cores.
         let lower = solutions.lower.as_ref()?;
         if graph.nodes() > MOST_NODES || !(2..=MOST_SOLUTIONS).contains(&number) {
@@ -68,7 +70,7 @@ impl<'a> Search<'a> {
         Some(Self {
             graph,
             solutions,
-            members: merged(&members, &solutions.merges)?,
+            members,
             field: PrimeField::new(lower.place.prime).ok()?,
             seed,
             others: number - 1,
@@ -178,37 +180,6 @@ impl Scene {
         });
         Some(cameras.collect())
     }
-}
-
-/// Members with all nodes after merges, which name the nodes that were shared at first.
-fn merged(members: &[Vec<u32>], merges: &[Merge]) -> Option<Vec<Vec<u32>>> {
-    let mut all = members.concat();
-    all.sort_unstable();
-    let is_shared = |v: &u32| all.partition_point(|w| w <= v) - all.partition_point(|w| w < v) > 1;
-    let sorted = |mut nodes: Vec<u32>| {
-        nodes.sort_unstable();
-        nodes.dedup();
-        nodes
-    };
-    let mut left: Vec<[Vec<u32>; 2]> = Vec::with_capacity(members.len());
-    for member in members {
-        let shared = member.iter().copied().filter(is_shared).collect();
-        left.push([sorted(shared), sorted(member.clone())]);
-    }
-    for merge in merges {
-        let mut union = [const { Vec::new() }; 2];
-        for nodes in &merge.members {
-            let nodes = sorted(nodes.clone());
-            let place = left.iter().position(|[shared, _]| *shared == nodes)?;
-            for (all, more) in union.iter_mut().zip(left.swap_remove(place)) {
-                all.extend(more);
-            }
-        }
-        left.push(union.map(sorted));
-    }
-    let mut full: Vec<Vec<u32>> = left.into_iter().map(|[_, full]| full).collect();
-    full.sort_unstable();
-    Some(full)
 }
 
 /// Pairs of nodes of which the fundamental matrices determine each member.

@@ -9,7 +9,6 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use viewcert::decide::{CountSolutions, Options, Question, VerdictError, decide};
 use viewcert::graph::{Graph, graph6};
-use viewcert::solutions::Number;
 
 /// What was found at the places of some graphs.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -37,7 +36,7 @@ pub struct Tally {
 
 /// What was found for one graph.
 struct Found {
-    solutions: Number,
+    solutions: usize,
     graph6: String,
     tally: Tally,
 }
@@ -91,7 +90,7 @@ pub fn tally(
     options: &Options,
     (places, seed): (usize, u64),
     done: impl Fn(u64) + Sync,
-) -> Result<BTreeMap<Number, Tally>, VerdictError> {
+) -> Result<BTreeMap<usize, Tally>, VerdictError> {
     let question = Question::with_solutions(CountSolutions::Full);
     let options = options.clone().question(question);
     let of_graph = |graph: &Graph| -> Result<Option<Found>, VerdictError> {
@@ -101,19 +100,16 @@ pub fn tally(
         Ok(evidence.and_then(|evidence| {
             let search = Search::new(graph, &evidence, seed)?;
             Some(Found {
-                solutions: evidence.at_least.clone(),
+                solutions: evidence.at_least,
                 graph6: graph6::encode(graph),
                 tally: at_places(&search, places),
             })
         }))
     };
     let found: Vec<Option<Found>> = graphs.par_iter().map(of_graph).collect::<Result<_, _>>()?;
-    let mut tallies: BTreeMap<Number, Tally> = BTreeMap::new();
+    let mut tallies: BTreeMap<usize, Tally> = BTreeMap::new();
     for found in found.into_iter().flatten() {
-        tallies
-            .entry(found.solutions.clone())
-            .or_default()
-            .add(found);
+        tallies.entry(found.solutions).or_default().add(found);
     }
     Ok(tallies)
 }

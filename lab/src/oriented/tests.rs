@@ -1,11 +1,11 @@
 use super::*;
 use viewcert::graph::graph6;
-use viewcert::solutions::{Effort, count};
+use viewcert::solutions::count;
 
 /// What is found for a graph, and the scenes of some draws.
 fn scenes(name: &str, draws: u64) -> Vec<Scene> {
     let graph = graph6::decode(name.as_bytes()).unwrap();
-    let solutions = count(&graph, Effort::default(), 1).unwrap();
+    let solutions = count(&graph, 1).unwrap();
     let search = Search::new(&graph, &solutions, 1).unwrap();
     let places = search.places().unwrap();
     // All that is shown of a scene was verified; here the numbers are seen to be those of its roots.
@@ -59,7 +59,7 @@ fn members_with_more_nodes() {
     let (i, j) = core.edges()[0];
     let edges = core.edges().iter().copied().chain([(i, 9), (j, 9)]);
     let graph = Graph::from_edges(edges).unwrap();
-    let solutions = count(&graph, Effort::default(), 1).unwrap();
+    let solutions = count(&graph, 1).unwrap();
     let search = Search::new(&graph, &solutions, 1).unwrap();
     assert_eq!(
         search
@@ -78,7 +78,7 @@ fn members_with_more_nodes() {
 #[test]
 fn cameras_near_a_root() {
     let graph = graph6::decode(b"HBQkcP_").unwrap();
-    let solutions = count(&graph, Effort::default(), 1).unwrap();
+    let solutions = count(&graph, 1).unwrap();
     let search = Search::new(&graph, &solutions, 1).unwrap();
     let is_oriented = |scene: &Scene| scene.oriented() == 2;
     let mut found = (0..64).filter_map(|draw| search.at_draw(draw));
@@ -110,6 +110,6 @@ fn cameras_near_a_root() {
 #[test]
 fn nothing_to_look_for() {
     let graph = graph6::decode(b"G@TclO").unwrap();
-    let solutions = count(&graph, Effort::default(), 1).unwrap();
+    let solutions = count(&graph, 1).unwrap();
     assert!(Search::new(&graph, &solutions, 1).is_none());
 }

@@ -282,9 +282,7 @@ class Verdict(Frozen, Generic[N]):
         found = self.to_dict()["solutions"]
         if found is None:
             return None
-        # From 2^53 on numbers are strings.
-        most = found["at_most"]
-        return of_said(Solutions, found, at_least=int(found["at_least"]), at_most=None if most is None else int(most))
+        return of_said(Solutions, found)
 
     @property
     def conditions(self) -> Tuple[str, ...]:

@@ -1,23 +1,17 @@
 //! The text of section 12 as typed values.
 
 use super::Evidence;
-use crate::json::{Big, Optional, Value, kinds, objects};
-use serde::de::Deserializer;
+use crate::json::{Big, Optional, kinds, objects};
 
 objects! {
     Solutions {
-        merges: Vec<Merge>, upper: Option<Upper>, lower: Option<Lower>,
-        product: Optional<Vec<Factor>>, rounds: Optional<Vec<Round>>,
+        upper: Option<Upper>, lower: Option<Lower>, rounds: Optional<Vec<Round>>,
     }
     Round {
         sets: Vec<Vec<u32>>, evidence: Vec<Evidence>, merges: Vec<Merge>,
         stresses: Optional<Vec<Vec<Big<u64>>>>,
     }
-    Factor { with: Vec<usize>, solutions: Box<Solutions>, rigid: Option<Rigid> }
-    Rigid { chart: Chart, centres: Centres }
-    Merge {
-        rule: String, with: Vec<usize>, at: Vec<u32>, solutions: Option<Box<Solutions>>,
-    }
+    Merge { rule: String, with: Vec<usize>, at: Vec<u32> }
     Chart { chains: Vec<Vec<u32>>, half_edges: Vec<[u32; 3]>, unknowns: Vec<[u32; 2]> }
     Centres { prime: Big<u64>, values: Vec<Vec<Big<u64>>> }
     Upper { chart: Chart, centres: Centres, steps: Vec<Step>, points: Option<Points> }
@@ -26,19 +20,12 @@ objects! {
     }
     Minor {
         rows: Vec<usize>, plus: Vec<usize>, minus: Vec<usize>, cols: Vec<usize>,
-        shifts: Optional<Vec<Vec<usize>>>,
     }
     Points {
         centres: Centres, unknowns: Vec<usize>, bounds: Vec<usize>, absent: Vec<Vec<usize>>,
         minors: Vec<Minor>, points: Vec<Point>,
     }
     Point { values: Vec<Big<u64>>, steps: Vec<Step> }
-}
-
-impl<T: Value> Value for Box<T> {
-    fn read<'de, D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        T::read(from).map(Box::new)
-    }
 }
 
 // Steps that make unknowns known.

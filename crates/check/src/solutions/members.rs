@@ -1,6 +1,5 @@
 //! Members, and their merges: conditions (S1) to (S3), (U4) and (U6) of section 12.
 
-use super::check_part;
 use super::stresses::Rigid;
 use crate::document::solutions::Merge;
 use crate::elimination::SPARSE;
@@ -30,13 +29,8 @@ impl Members {
             .collect()
     }
 
-    /// Makes one member of several; in a round with what is rigid there.
-    pub(super) fn merge(
-        &mut self,
-        merge: &Merge,
-        rigid: Option<&Rigid>,
-        meter: &Meter,
-    ) -> Checked<()> {
+    /// Makes one member of several; `rigid` is the part of the round.
+    pub(super) fn merge(&mut self, merge: &Merge, rigid: &Rigid, meter: &Meter) -> Checked<()> {
         ensure!(
             merge.with.len() >= 2 && merge.with.is_sorted_by(|a, b| a < b),
             "`with` is not an increasing list of two members or more"
@@ -45,28 +39,17 @@ impl Members {
         let taken = taken.collect::<Checked<Vec<Nodes>>>()?;
         let size: usize = taken.iter().map(Nodes::len).sum();
         meter.charge(SPARSE * (size + merge.with.len() * merge.at.len()) as u64)?;
-        match (merge.rule.as_str(), rigid) {
-            ("part", None) => check_parted(merge, &taken, meter)?,
-            ("removed" | "stressed", Some(rigid)) => check_node(merge, &taken, rigid)?,
+        match merge.rule.as_str() {
+            "removed" | "stressed" => check_node(merge, &taken, rigid)?,
             _ => check_rule(merge, &taken)?,
         }
         self.0.push(Some(taken.into_iter().flatten().collect()));
         Ok(())
     }
 
-    /// The nodes of a member that is left.
-    pub(super) fn get(&self, number: usize) -> Option<&Nodes> {
-        self.0.get(number)?.as_ref()
-    }
-
     /// The members that are left.
     pub(super) fn all(&self) -> impl Iterator<Item = &Nodes> {
         self.0.iter().flatten()
-    }
-
-    /// The numbers of the members that are left.
-    pub(super) fn numbers(&self) -> impl Iterator<Item = usize> + '_ {
-        (0..self.0.len()).filter(|&number| self.0[number].is_some())
     }
 
     fn take(&mut self, number: usize) -> Checked<Nodes> {
@@ -179,12 +162,8 @@ fn check_node(merge: &Merge, taken: &[Nodes], rigid: &Rigid) -> Checked<()> {
     check_pairs(merge, &pairs, taken)
 }
 
-/// (S2): each pair lies in a member, and each member holds a pair.
+/// (S3): each pair lies in a member, and each member holds a pair.
 fn check_pairs(merge: &Merge, pairs: &[[u32; 2]], taken: &[Nodes]) -> Checked<()> {
-    ensure!(
-        merge.solutions.is_none(),
-        "evidence for a rule that needs none"
-    );
     for pair in pairs {
         ensure!(
             taken.iter().any(|nodes| has(nodes, pair)),
@@ -200,30 +179,4 @@ fn check_pairs(merge: &Merge, pairs: &[[u32; 2]], taken: &[Nodes]) -> Checked<()
         );
     }
     Ok(())
-}
-
-/// (S3): a part with one solution, and members that share two nodes with it (theory, Proposition
-/// 10.11).
-fn check_parted(merge: &Merge, taken: &[Nodes], meter: &Meter) -> Checked<()> {
-    ensure!(
-        merge.at.is_sorted_by(|a, b| a < b),
-        "`at` is not an increasing list of nodes"
-    );
-    let inside = |nodes: &Nodes| -> Vec<u32> {
-        let inside = merge.at.iter().filter(|node| nodes.contains(node));
-        inside.copied().collect()
-    };
-    let cut: Vec<Vec<u32>> = taken.iter().map(inside).collect();
-    let few = cut
-        .iter()
-        .zip(&merge.with)
-        .find(|(nodes, _)| nodes.len() < 2);
-    ensure!(
-        few.is_none(),
-        "member {} has fewer than two nodes in `at`",
-        few.map_or(0, |(_, &number)| number)
-    );
-    let missing = || Failure::rejected("a part without evidence that it has one solution");
-    let evidence = merge.solutions.as_ref().ok_or_else(missing)?;
-    check_part(evidence, cut, meter)
 }

@@ -93,9 +93,7 @@ impl Place<'_> {
             "row {} is freed and not freed",
             twice.copied().unwrap_or_default()
         );
-        let degrees = self.degrees(minor, bounds)?;
-        check_shifts(minor, &degrees, bounds)?;
-        Ok(degrees)
+        self.degrees(minor, bounds)
     }
 
     /// The degrees: how many rows have the unknown, but a node has three columns.
@@ -176,24 +174,6 @@ impl Place<'_> {
         });
         Ok(interpolated(field, degrees, values.collect()))
     }
-}
-
-/// `shifts` of (S13): increasing, and with none a degree is above its bound.
-fn check_shifts(minor: &Minor, degrees: &[usize], bounds: &[usize]) -> Checked<()> {
-    let Some(shifts) = &minor.shifts.0 else {
-        return Ok(());
-    };
-    ensure!(
-        shifts.is_sorted_by(|a, b| a < b),
-        "`shifts` is not increasing"
-    );
-    for shift in shifts {
-        let mut room = shift.iter().zip(degrees.iter().zip(bounds));
-        let fits = shift.len() == bounds.len()
-            && room.all(|(&b, (degree, bound))| b <= bound.saturating_sub(*degree));
-        ensure!(fits, "the shift {shift:?} is not within the bounds");
-    }
-    Ok(())
 }
 
 /// Coefficients from the values on the grid 0, 1, .., degree in each unknown: in one after the other,

@@ -1,12 +1,11 @@
 //! How many solutions a finite solvable graph has (section 12 of the specification; theory, section
 //! 10).
 //!
-//! In: the members of the one piece, and the evidence. They are merged (`members`) until a core with
-//! a few unknown scales is left (`chart`, `system`). Out: bounds. An upper one comes from steps that
-//! make unknowns known (`linear`; `support`, of `minors` and their `zeros`) and from the points that
-//! solutions are near to (`points`), a lower one from simple points (`simple`) of a tight core.
-//! What hangs together in a few nodes only is bounded apart, and numbers multiply (`product`).
-//! Before all merges come `rounds`, which take nodes away, or rest on `stresses`.
+//! In: the members of the one piece, and the evidence. `rounds` take nodes away, or rest on `stresses`, and
+//! merge `members`.
+//! Those left are a core with a few unknown scales (`chart`, `system`). Out: bounds. An upper one comes
+//! from steps that make unknowns known (`linear`; `support`, of `minors` and their `zeros`) and from the
+//! points that solutions are near to (`points`), a lower one from simple points (`simple`) of a tight core.
 //! `dense` has the linear algebra; the text is `document::solutions`.
 
 mod chart;
@@ -15,7 +14,6 @@ mod linear;
 mod members;
 mod minors;
 mod points;
-mod product;
 mod rounds;
 mod simple;
 mod stresses;
@@ -23,7 +21,6 @@ mod support;
 mod system;
 mod zeros;
 
-use crate::document::Number;
 use crate::document::solutions::{Lower, Solutions, Step, Upper};
 use crate::evidence::Piece;
 use crate::limits::Meter;
@@ -38,15 +35,15 @@ use system::{Known, System};
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Count {
     /// There are as many solutions at least.
-    pub at_least: Number,
+    pub at_least: usize,
     /// There are no more, if that was shown.
-    pub at_most: Option<Number>,
+    pub at_most: Option<usize>,
 }
 
 impl Count {
     /// Whether there is just one solution.
     pub fn is_one(&self) -> bool {
-        self.at_most.as_ref().is_some_and(|most| *most == 1)
+        self.at_most == Some(1)
     }
 }
 
@@ -95,82 +92,32 @@ pub(crate) fn check(
         !evidence.rounds.0.as_ref().is_some_and(is_empty),
         "`rounds` without a round"
     );
-    let alone = pieces.iter().any(|piece| piece.by_solutions);
-    let of = if alone { Of::Alone } else { Of::Graph };
-    bounds(evidence, members, setting.meter, of)
-}
-
-/// What the evidence is about.
-#[derive(Clone, Copy, PartialEq)]
-enum Of {
-    /// The graph, which is known to be finite solvable.
-    Graph,
-    /// The graph, which is so because the merges leave one member.
-    Alone,
-    /// A part, of which that is to be shown.
-    Part,
-    /// A factor of a graph, of which that is known as well; its number may stay open.
-    Factor,
-}
-
-/// What the evidence about some members gives.
-fn bounds(evidence: &Solutions, mut members: Members, meter: &Meter, of: Of) -> Checked<Count> {
+    let left = members.left();
     ensure!(
-        matches!(of, Of::Graph | Of::Alone) || evidence.rounds.0.is_none(),
-        "rounds inside of `solutions`"
-    );
-    ensure!(
-        of != Of::Part || evidence.lower.is_none(),
-        "a lower bound for a part, of which one solution is to be shown"
-    );
-    ensure!(
-        of != Of::Part || evidence.product.0.is_none(),
-        "a product for a part, of which one solution is to be shown"
-    );
-    for (k, merge) in evidence.merges.iter().enumerate() {
-        let merged = members.merge(merge, None, meter);
-        merged.within(|| format!("merges[{k}]"))?;
-    }
-    ensure!(
-        of != Of::Alone || members.all().count() == 1,
+        left.len() == 1 || pieces.iter().all(|piece| !piece.by_solutions),
         "`one-solution` where the merges leave several members"
     );
-    let found = match &evidence.product.0 {
-        Some(factors) => {
-            ensure!(
-                evidence.upper.is_none() && evidence.lower.is_none(),
-                "a product, and bounds besides"
-            );
-            product::check(factors, &members, meter)?
-        }
-        None => of_core(evidence, &members.left(), meter, of)?,
-    };
-    let most = found.at_most.as_ref();
-    ensure!(
-        most.is_none_or(|most| *most >= found.at_least),
-        "the bounds contradict each other"
-    );
-    Ok(found)
+    bounds(evidence, &left, setting.meter)
 }
 
 /// What the evidence about the core of the members that are left gives.
-fn of_core(evidence: &Solutions, left: &[Vec<u32>], meter: &Meter, of: Of) -> Checked<Count> {
+fn bounds(evidence: &Solutions, left: &[Vec<u32>], meter: &Meter) -> Checked<Count> {
     if left.len() == 1 {
         ensure!(
             evidence.upper.is_none() && evidence.lower.is_none(),
             "one member is left, and nothing else is to be shown"
         );
         return Ok(Count {
-            at_least: Number::from(1),
-            at_most: Some(Number::from(1)),
+            at_least: 1,
+            at_most: Some(1),
         });
     }
     ensure!(
-        of == Of::Factor || evidence.upper.is_some() || evidence.lower.is_some(),
+        evidence.upper.is_some() || evidence.lower.is_some(),
         "neither an upper nor a lower bound"
     );
     let at_most = evidence.upper.as_ref().map(|upper| {
-        let most = at_most(upper, left, meter, of);
+        let most = at_most(upper, left, meter);
         most.within(|| "upper".into())
     });
     let at_most = at_most.transpose()?;
@@ -178,19 +125,18 @@ fn of_core(evidence: &Solutions, left: &[Vec<u32>], meter: &Meter, of: Of) -> Ch
         let least = at_least(lower, left, meter);
         least.within(|| "lower".into())
     });
-    Ok(Count {
-        at_least: Number::from(at_least.transpose()?.unwrap_or(1) as u64),
-        at_most: at_most.map(|most| Number::from(most as u64)),
-    })
+    let at_least = at_least.transpose()?.unwrap_or(1);
+    ensure!(
+        at_most.is_none_or(|most| most >= at_least),
+        "the bounds contradict each other"
+    );
+    Ok(Count { at_least, at_most })
 }
 
 /// An upper bound (theory, Theorems 10.5, 10.6 and 10.8).
-fn at_most(upper: &Upper, left: &[Vec<u32>], meter: &Meter, of: Of) -> Checked<usize> {
+fn at_most(upper: &Upper, left: &[Vec<u32>], meter: &Meter) -> Checked<usize> {
     let chart = Chart::new(&upper.chart, left, meter).within(|| "chart".into())?;
     let system = System::new(&chart, &upper.centres, meter).within(|| "centres".into())?;
-    if of == Of::Part {
-        simple::check_identity(&system).within(|| "u = 1".into())?;
-    }
     let mut known: Known = vec![None; chart.unknowns];
     for (k, step) in upper.steps.iter().enumerate() {
         let checked = match step {
@@ -212,12 +158,4 @@ fn at_least(lower: &Lower, left: &[Vec<u32>], meter: &Meter) -> Checked<usize> {
     let system = System::new(&chart, &lower.centres, meter).within(|| "centres".into())?;
     simple::check_chains(&system)?;
     simple::check_points(lower, &system)
-}
-
-/// Sees that a part is finite solvable and has one solution (theory, Proposition 10.11).
-fn check_part(evidence: &Solutions, members: Vec<Vec<u32>>, meter: &Meter) -> Checked<()> {
-    let found = bounds(evidence, Members::new(members), meter, Of::Part);
-    let found = found.within(|| "solutions".into())?;
-    ensure!(found.is_one(), "the part is not shown to have one solution");
-    Ok(())
 }

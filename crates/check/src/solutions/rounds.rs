@@ -31,7 +31,7 @@ pub(super) fn check(round: &Round, members: &mut Members, setting: &Setting) -> 
         stresses: stresses.transpose()?,
     };
     for (k, merge) in round.merges.iter().enumerate() {
-        let merged = members.merge(merge, Some(&rigid), setting.meter);
+        let merged = members.merge(merge, &rigid, setting.meter);
         merged.within(|| format!("merges[{k}]"))?;
     }
     Ok(())

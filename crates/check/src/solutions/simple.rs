@@ -26,12 +26,6 @@ pub(super) fn check_chains(system: &System) -> Checked<()> {
     Ok(())
 }
 
-/// A part is finite solvable: u = 1 is a simple point (theory, Lemma 10.9).
-pub(super) fn check_identity(system: &System) -> Checked<()> {
-    check_chains(system)?;
-    check_point(&vec![system.field.one; system.chart.unknowns], system)
-}
-
 /// (S23): how many solutions there are at least.
 pub(super) fn check_points(lower: &Lower, system: &System) -> Checked<usize> {
     let points = &lower.points;

@@ -1,13 +1,9 @@
 //! Coefficients of minors that are zero for generic centres: condition (S14) of section 12 (theory,
-//! Theorems 10.7 and 10.23).
+//! Theorem 10.7).
 
-use super::dense::ENTRY;
 use super::minors::Place;
 use super::system::Side;
 use crate::document::solutions::Minor;
-use crate::elimination::SPARSE;
-use crate::limits::Meter;
-use crate::rejection::Checked;
 
 /// The sides of a row that are in a minor: columns, by their places among those of the minor, and the place of
 /// the unknown.
@@ -59,64 +55,6 @@ impl Pattern {
             .map(|sides| self.columns_left(sides, exponent));
         let rows: Vec<Vec<usize>> = rows.collect();
         have_transversal(&rows, self.columns)
-    }
-
-    /// Whether there is one for some choice of a side of each row with a listed unknown, each unknown being
-    /// that of as many as its exponent says.
-    pub(super) fn has_choice(&self, exponent: &[usize], meter: &Meter) -> Checked<bool> {
-        let (open, rest): (Vec<_>, Vec<_>) = self
-            .rows
-            .iter()
-            .partition(|sides| sides.iter().any(|(_, unknown)| unknown.is_some()));
-        let columns = |sides: &Sides| -> Vec<usize> {
-            sides
-                .iter()
-                .flat_map(|(columns, _)| columns.clone())
-                .collect()
-        };
-        let mut rows: Vec<Vec<usize>> = rest.into_iter().map(columns).collect();
-        if exponent
-            .iter()
-            .zip(&self.with)
-            .any(|(due, left)| due > left)
-        {
-            return Ok(false);
-        }
-        let (mut due, mut left) = (exponent.to_vec(), self.with.clone());
-        self.choose(&open, [&mut due, &mut left], &mut rows, meter)
-    }
-
-    /// Chooses in the rows that are open: of each unknown as many sides as are due, which are no more than the
-    /// rows left that have it.
-    fn choose(
-        &self,
-        open: &[&Sides],
-        [due, left]: [&mut [usize]; 2],
-        rows: &mut Vec<Vec<usize>>,
-        meter: &Meter,
-    ) -> Checked<bool> {
-        let Some((sides, others)) = open.split_first() else {
-            meter.charge(ENTRY * 6 * (self.columns * self.columns) as u64)?;
-            return Ok(have_transversal(rows, self.columns));
-        };
-        let unknowns = || sides.iter().filter_map(|&(_, unknown)| unknown);
-        unknowns().for_each(|f| left[f] -= 1);
-        let mut found = false;
-        for (columns, unknown) in *sides {
-            meter.charge(SPARSE * (2 + columns.len()) as u64)?;
-            if found || unknown.is_some_and(|f| due[f] == 0) {
-                continue;
-            }
-            unknown.iter().for_each(|&f| due[f] -= 1);
-            if unknowns().all(|f| due[f] <= left[f]) {
-                rows.push(columns.clone());
-                found = self.choose(others, [&mut *due, &mut *left], rows, meter)?;
-                rows.pop();
-            }
-            unknown.iter().for_each(|&f| due[f] += 1);
-        }
-        unknowns().for_each(|f| left[f] += 1);
-        Ok(found)
     }
 
     /// The columns of the sides of a row that are not struck out: a side with an unknown whose

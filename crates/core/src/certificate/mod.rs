@@ -103,13 +103,13 @@ impl<'a> Certificate<'a> {
     ///
     /// ```
     /// use viewcert::graph::graph6;
-    /// use viewcert::solutions::{Effort, count};
+    /// use viewcert::solutions::count;
     /// use viewcert::{CountSolutions, Options, Question, decide};
     ///
     /// let graph = graph6::decode(b"HBQkcP_").unwrap();
     /// let finite = Question::with_solutions(CountSolutions::Off);
     /// let verdict = decide(&graph, &Options::default().question(finite))?;
-    /// let solutions = count(&graph, Effort::default(), 1).unwrap();
+    /// let solutions = count(&graph, 1).unwrap();
     /// let certificate = verdict.certificate(&graph).with_solutions(&solutions)?.compact();
     /// let claimed = "\"solutions\":{\"at_least\":2,\"at_most\":2,\"strength\":\"proof\"";
     /// assert!(certificate.to_string().contains(claimed));

@@ -1,15 +1,13 @@
 //! The evidence for the number of solutions (docs/certificate.md, section 12), borrowed from
 //! [`Solutions`].
 //!
-//! The evidence names members by their shared nodes; the certificate numbers them: first those of
-//! the piece, then one for each merge. So the merges are done again here, on sets of nodes.
+//! Rounds number members: first those of the piece, then one for each merge. The rest names them by
+//! their shared nodes.
 
 use super::objects::{Big, bigs, object, objects, written};
 use crate::decide::evidence::Evidence;
 use crate::decide::{Joined, Round, Rounds, Value, Verdict};
-use crate::solutions::{
-    AtMost, Chart, Factor, Linear, Lower, Merge, Minor, Number, One, Part, Place, Solutions, Upper,
-};
+use crate::solutions::{AtMost, Chart, Linear, Lower, Minor, One, Part, Place, Solutions, Upper};
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
 use std::fmt;
@@ -31,17 +29,16 @@ impl std::error::Error for ForeignSolutions {}
 
 objects! {
     ClaimedSolutions {
-        at_least: Number,
-        at_most: Option<Number>,
+        at_least: usize,
+        at_most: Option<usize>,
         strength: &'static str,
         error_log2: Option<i64>,
     }
 
     SolutionsView<'a> {
-        merges: Vec<MergeView<'a>>,
         upper: Option<&'a Upper>,
         lower: Option<&'a Lower>,
-        ; optional product: Vec<FactorView<'a>>, rounds: Vec<RoundView<'a>>
+        ; optional rounds: Vec<RoundView<'a>>
     }
 
     RoundView<'a> {
@@ -51,17 +48,10 @@ objects! {
         ; optional stresses: Vec<Vec<Big<&'a u64>>>
     }
 
-    FactorView<'a> {
-        with: Vec<usize>,
-        solutions: Nested<'a>,
-        rigid: Option<&'a Place>,
-    }
-
     MergeView<'a> {
         rule: &'static str,
         with: Vec<usize>,
         at: &'a [u32],
-        solutions: Option<Nested<'a>>,
     }
 }
 
@@ -75,7 +65,7 @@ pub(super) struct Counted<'a> {
 
 impl ClaimedSolutions {
     pub(super) fn is_one(&self) -> bool {
-        self.at_most.as_ref().is_some_and(|most| *most == 1)
+        self.at_most == Some(1)
     }
 }
 
@@ -85,7 +75,6 @@ impl<'a> RoundView<'a> {
             rule: rule.name(),
             with: with.clone(),
             at,
-            solutions: None,
         };
         Self {
             sets: &round.sets,
@@ -96,17 +85,7 @@ impl<'a> RoundView<'a> {
     }
 }
 
-/// The evidence of a part, inside of that of the whole.
-struct Nested<'a>(Box<SolutionsView<'a>>);
-
-impl Serialize for Nested<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        self.0.serialize(serializer)
-    }
-}
-
 written! {
-    Place: |own| { chart: own.chart, centres: Centres(own) }
     Upper: |own| {
         chart: own.place.chart, centres: Centres(&own.place), steps: own.ones,
         points: own.points.as_ref().map(|(place, points)| Points(place, points)),
@@ -158,26 +137,31 @@ pub(super) fn view<'a>(
     let bodies = piece.members.bodies.iter();
     let bodies = bodies.map(|&k| verdict.contraction.bodies[k as usize].nodes.clone());
     let edges = piece.members.edges.iter().map(|&(i, j)| vec![i, j]);
-    let live = match rounds {
-        Some(rounds) => Live {
-            members: rounds.left.iter().cloned().collect(),
-            next: rounds.next,
-        },
-        None => Live::new(bodies.chain(edges).collect()),
+    let members = match rounds {
+        Some(rounds) => rounds.left.iter().map(|(_, nodes)| nodes.clone()).collect(),
+        None => bodies.chain(edges).collect(),
     };
-    let mut view = match solutions {
-        Some(solutions) => live.view(solutions)?,
-        None => SolutionsView {
-            merges: Vec::new(),
-            upper: None,
-            lower: None,
-            product: None,
-            rounds: None,
-        },
+    let (upper, lower) = (
+        solutions.and_then(|of| of.upper.as_ref()),
+        solutions.and_then(|of| of.lower.as_ref()),
+    );
+    let left = shared(members);
+    let places = upper.iter().map(|upper| &upper.place);
+    for place in places.chain(lower.iter().map(|lower| &lower.place)) {
+        let mut charted = place.chart.members.clone();
+        charted.iter_mut().for_each(|member| member.sort_unstable());
+        charted.sort_unstable();
+        if charted != left {
+            return Err(ForeignSolutions);
+        }
+    }
+    let view = SolutionsView {
+        upper,
+        lower,
+        rounds: rounds.map(|rounds| rounds.rounds.iter().map(RoundView::new).collect()),
     };
-    view.rounds = rounds.map(|rounds| rounds.rounds.iter().map(RoundView::new).collect());
-    let bounds = solutions.map(|of| (of.at_least.clone(), of.at_most.clone()));
-    let (at_least, at_most) = bounds.unwrap_or((Number::one(), Some(Number::one())));
+    let bounds = solutions.map(|of| (of.at_least, of.at_most));
+    let (at_least, at_most) = bounds.unwrap_or((1, Some(1)));
     let claimed = ClaimedSolutions {
         at_least,
         at_most,
@@ -187,128 +171,7 @@ pub(super) fn view<'a>(
     Ok(Some((claimed, view)))
 }
 
-/// Members that are left, by their numbers, each with its nodes that were shared at first.
-struct Live {
-    members: BTreeMap<usize, Vec<u32>>,
-    next: usize,
-}
-
-impl Live {
-    fn new(members: Vec<Vec<u32>>) -> Self {
-        Self {
-            next: members.len(),
-            members: shared(members).into_iter().enumerate().collect(),
-        }
-    }
-
-    fn view(mut self, solutions: &Solutions) -> Result<SolutionsView<'_>, ForeignSolutions> {
-        let merges = solutions.merges.iter().map(|merge| self.merge(merge));
-        let merges = merges.collect::<Result<_, _>>()?;
-        let upper = solutions.upper.as_ref();
-        let lower = solutions.lower.as_ref();
-        let charts = upper.map(|upper| &upper.place.chart).into_iter();
-        for chart in charts.chain(lower.map(|lower| &lower.place.chart)) {
-            self.see_to(chart)?;
-        }
-        let numbers: BTreeMap<&[u32], usize> = if solutions.product.is_empty() {
-            BTreeMap::new()
-        } else {
-            self.members
-                .iter()
-                .map(|(&k, nodes)| (&nodes[..], k))
-                .collect()
-        };
-        let factors = solutions.product.iter();
-        let factors = factors.map(|factor| self.factor(factor, &numbers));
-        let factors = factors.collect::<Result<Vec<_>, _>>()?;
-        Ok(SolutionsView {
-            merges,
-            upper,
-            lower,
-            product: (!factors.is_empty()).then_some(factors),
-            rounds: None,
-        })
-    }
-
-    /// A member that is left, with these nodes.
-    fn number(&self, nodes: &[u32]) -> Result<usize, ForeignSolutions> {
-        let mut nodes = nodes.to_vec();
-        nodes.sort_unstable();
-        let found = self.members.iter().find(|(_, other)| **other == nodes);
-        found.map(|(&number, _)| number).ok_or(ForeignSolutions)
-    }
-
-    /// A factor, with the numbers of the members that are left, which are found by their nodes.
-    fn factor<'a>(
-        &self,
-        factor: &'a Factor,
-        numbers: &BTreeMap<&[u32], usize>,
-    ) -> Result<FactorView<'a>, ForeignSolutions> {
-        let with = factor.members.iter();
-        let with = with.map(|nodes| numbers.get(&nodes[..]).copied().ok_or(ForeignSolutions));
-        let mut with = with.collect::<Result<Vec<usize>, _>>()?;
-        with.sort_unstable();
-        let members = with.iter().map(|number| self.members[number].clone());
-        let members: Vec<Vec<u32>> = members.collect();
-        let rigid = factor.rigid.as_ref().map(|place| {
-            Self::new(members.clone()).see_to(&place.chart)?;
-            Ok(place)
-        });
-        let pairs = factor.pairs.iter().map(|pair| pair.to_vec());
-        let inner = Self::new(members.into_iter().chain(pairs).collect());
-        Ok(FactorView {
-            with,
-            solutions: Nested(Box::new(inner.view(&factor.solutions)?)),
-            rigid: rigid.transpose()?,
-        })
-    }
-
-    /// Does a merge again.
-    fn merge<'a>(&mut self, merge: &'a Merge) -> Result<MergeView<'a>, ForeignSolutions> {
-        let mut with = Vec::with_capacity(merge.members.len());
-        let mut merged = Vec::new();
-        for nodes in &merge.members {
-            let number = self.number(nodes)?;
-            with.push((number, self.members.remove(&number).unwrap_or_default()));
-        }
-        with.sort_unstable();
-        let solutions = merge.grown.as_ref().map(|solutions| {
-            let cut = with.iter().map(|(_, nodes)| {
-                let inside = nodes.iter().filter(|node| merge.at.contains(node));
-                inside.copied().collect()
-            });
-            Self::new(cut.collect()).view(solutions)
-        });
-        let solutions = solutions.transpose()?.map(|view| Nested(Box::new(view)));
-        merged.extend(with.iter().flat_map(|(_, nodes)| nodes).copied());
-        merged.sort_unstable();
-        merged.dedup();
-        self.members.insert(self.next, merged);
-        self.next += 1;
-        Ok(MergeView {
-            rule: merge.rule.name(),
-            with: with.into_iter().map(|(number, _)| number).collect(),
-            at: &merge.at,
-            solutions,
-        })
-    }
-
-    /// Sees that a chart is one of the members that are left.
-    fn see_to(&self, chart: &Chart) -> Result<(), ForeignSolutions> {
-        let mut left = shared(self.members.values().cloned().collect());
-        let mut charted = chart.members.clone();
-        charted.iter_mut().for_each(|member| member.sort_unstable());
-        left.sort_unstable();
-        charted.sort_unstable();
-        if left == charted {
-            Ok(())
-        } else {
-            Err(ForeignSolutions)
-        }
-    }
-}
-
-/// The nodes of each member that lie in a second one, in increasing order.
+/// The nodes of each member that lie in a second one; all in increasing order.
 fn shared(mut members: Vec<Vec<u32>>) -> Vec<Vec<u32>> {
     let mut times: BTreeMap<u32, usize> = BTreeMap::new();
     for &node in members.iter().flatten() {
@@ -318,6 +181,7 @@ fn shared(mut members: Vec<Vec<u32>>) -> Vec<Vec<u32>> {
         member.retain(|node| times[node] > 1);
         member.sort_unstable();
     }
+    members.sort_unstable();
     members
 }
 
@@ -368,7 +232,7 @@ impl Serialize for Minor {
             list.sort_unstable();
         }
         object!(serializer, {
-            rows: rows, plus: plus, minus: minus, cols: cols; optional shifts: self.shifts
+            rows: rows, plus: plus, minus: minus, cols: cols,
         })
     }
 }

@@ -8,8 +8,9 @@ use crate::decide::claim::Strength;
 use crate::decide::question::CountSolutions;
 use crate::decide::rounds::Rounds;
 use crate::graph::Graph;
-use crate::solutions::{Effort, Number, Plan, Solutions, count_in};
+use crate::solutions::{Solutions, count_in};
 use crate::watch::{Stopped, Task};
+use crate::wording::counted;
 use std::fmt;
 use std::sync::Arc;
 
@@ -19,10 +20,10 @@ use std::sync::Arc;
 #[non_exhaustive]
 pub struct SolutionCount {
     /// There are as many at least; the cameras themselves are one.
-    pub at_least: Number,
+    pub at_least: usize,
     /// There are no more than that, if such a bound is known.
-    pub at_most: Option<Number>,
-    /// Whether a quick count left the number open, and a full one looks at more.
+    pub at_most: Option<usize>,
+    /// Whether a quick count left the number open that a full one looks at.
     pub full_may_tell_more: bool,
     /// Rounds of removing nodes, where they show that there is one solution, or what is counted goes
     /// on from them.
@@ -35,8 +36,8 @@ impl SolutionCount {
     /// One solution, by contraction or by the model.
     pub(super) fn one() -> Self {
         Self {
-            at_least: Number::one(),
-            at_most: Some(Number::one()),
+            at_least: 1,
+            at_most: Some(1),
             full_may_tell_more: false,
             rounds: None,
             evidence: None,
@@ -82,25 +83,14 @@ impl SolutionCount {
         seed: u64,
         task: &Task<'_>,
     ) -> Result<Self, Stopped> {
-        let plan = Plan {
-            effort: match effort {
-                CountSolutions::Full => Effort::FULL,
-                CountSolutions::Off | CountSolutions::Quick => Effort::default(),
-            },
-            quick: effort == CountSolutions::Quick,
-            is_finite: true,
-        };
         let (found, left_out) = match effort {
             CountSolutions::Off => (None, false),
-            CountSolutions::Quick | CountSolutions::Full => {
-                count_in(graph, members, plan, seed, task)?
-            }
+            CountSolutions::Quick => count_in(graph, members, true, seed, task)?,
+            CountSolutions::Full => count_in(graph, members, false, seed, task)?,
         };
         Ok(Self {
-            at_least: found
-                .as_ref()
-                .map_or(Number::one(), |found| found.at_least.clone()),
-            at_most: found.as_ref().and_then(|found| found.at_most.clone()),
+            at_least: found.as_ref().map_or(1, |found| found.at_least),
+            at_most: found.as_ref().and_then(|found| found.at_most),
             full_may_tell_more: left_out,
             rounds: None,
             evidence: found.map(Arc::new),
@@ -108,13 +98,13 @@ impl SolutionCount {
     }
 
     /// The number of solutions, if it is known.
-    pub fn exactly(&self) -> Option<&Number> {
-        self.at_most.as_ref().filter(|&most| *most == self.at_least)
+    pub fn exactly(&self) -> Option<usize> {
+        self.at_most.filter(|&most| most == self.at_least)
     }
 
     /// Whether there is just one solution.
     pub fn is_one(&self) -> bool {
-        self.at_most.as_ref().is_some_and(|most| *most == 1)
+        self.at_most == Some(1)
     }
 
     /// Why there is one solution, in words, where rounds show it.
@@ -152,18 +142,12 @@ impl SolutionCount {
 /// nothing but its finiteness is known is "finitely many solutions".
 impl fmt::Display for SolutionCount {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let solutions = |number: &Number| {
-            if *number == 1 {
-                format!("{number} solution")
-            } else {
-                format!("{number} solutions")
-            }
-        };
-        match (&self.at_least, &self.at_most) {
+        let solutions = |number| counted(number, "solution");
+        match (self.at_least, self.at_most) {
             (least, Some(most)) if least == most => write!(f, "exactly {}", solutions(least)),
-            (least, None) if *least == 1 => f.write_str("finitely many solutions"),
+            (1, None) => f.write_str("finitely many solutions"),
             (least, None) => write!(f, "at least {}", solutions(least)),
-            (least, Some(most)) if *least == 1 => write!(f, "at most {}", solutions(most)),
+            (1, Some(most)) => write!(f, "at most {}", solutions(most)),
             (least, Some(most)) => write!(f, "at least {least} and at most {}", solutions(most)),
         }
     }
@@ -176,21 +160,17 @@ mod tests {
     use crate::geometry::model::Model;
     use crate::graph::graph6;
 
-    fn small(number: &Number) -> u64 {
-        number.try_into().unwrap()
-    }
-
     #[test]
     fn in_words() {
         let words = |at_least: usize, at_most: Option<usize>| {
             let count = SolutionCount {
-                at_least: at_least.into(),
-                at_most: at_most.map(Number::from),
+                at_least,
+                at_most,
                 full_may_tell_more: false,
                 rounds: None,
                 evidence: None,
             };
-            (count.to_string(), count.exactly().map(small))
+            (count.to_string(), count.exactly())
         };
         assert_eq!(words(1, Some(1)), ("exactly 1 solution".into(), Some(1)));
         assert_eq!(words(2, Some(2)), ("exactly 2 solutions".into(), Some(2)));
@@ -210,8 +190,7 @@ mod tests {
             let options = Options::default().question(question);
             let verdict = decide(&graph, &options).unwrap();
             let solutions = verdict.solutions.clone();
-            let bounds =
-                solutions.map(|count| (small(&count.at_least), count.at_most.as_ref().map(small)));
+            let bounds = solutions.map(|count| (count.at_least, count.at_most));
             (verdict.value, bounds, verdict.value_by_rank())
         };
         use CountSolutions::{Full, Off, Quick};

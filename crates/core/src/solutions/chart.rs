@@ -5,7 +5,7 @@
 //! Lemma 10.4).
 
 use super::evidence::{Chart, Scale};
-use super::members::{Members, Set, bits, shared};
+use super::members::{Members, Set, bits};
 use crate::geometry::plane_flow::directions;
 use crate::linalg::prime::PrimeField;
 use crate::linalg::span::Span;
@@ -63,9 +63,6 @@ impl Row {
     }
 }
 
-/// So many charts have the first nodes that can be eliminated, and the trees of rotated lists.
-pub(super) const ROTATED: usize = 6;
-
 /// Members with shared nodes as indices, half-edges apart.
 #[derive(Clone, Debug)]
 pub(super) struct Core {
@@ -87,34 +84,23 @@ pub(super) struct Core {
 
 impl Core {
     /// The core of members of which there are two or more; `None` if one of them shares less
-    /// than two nodes, so that the graph is not finite solvable. The first [`ROTATED`] charts differ in
-    /// the spanning tree, all others in the nodes that are eliminated as well.
+    /// than two nodes, so that the graph is not finite solvable. Charts differ in the
+    /// nodes that are eliminated and in the spanning tree.
     pub(super) fn new(members: &Members, chart: usize) -> Option<Self> {
-        let shared = shared(&members.sets);
-        let sets: Vec<Set> = members.sets.iter().map(|set| set & shared).collect();
+        let sets = &members.sets;
         if sets.iter().any(|set| set.count_ones() < 2) {
             return None;
         }
-        let mut nodes: Vec<usize> = bits(shared).collect();
-        if chart >= ROTATED {
-            shuffle(&mut nodes, chart, 0);
-        }
-        let (mut half_edges, mut bodies) = half_edges(&sets, &nodes);
-        if chart < ROTATED {
-            rotate(&mut bodies, chart);
-            rotate(&mut half_edges, chart / 2);
-        } else {
-            for (which, body) in (1..).zip(&mut bodies) {
-                shuffle(body, chart, which);
-            }
-            shuffle(&mut bodies, chart, 0);
-            shuffle(&mut half_edges, chart, 0);
-        }
+        let mut nodes: Vec<usize> = (0..members.nodes.len()).collect();
+        shuffle(&mut nodes, chart);
+        let (mut half_edges, mut bodies) = half_edges(sets, &nodes);
+        shuffle(&mut bodies, chart);
+        shuffle(&mut half_edges, chart);
         // Big members first: their scales stay in few rows, and half-edges come last of all.
         bodies.sort_by_key(|body| std::cmp::Reverse(body.len()));
         let mut number = vec![None; members.nodes.len()];
         let mut left = 0;
-        for v in bits(shared) {
+        for v in 0..nodes.len() {
             if !half_edges.iter().any(|half| half[0] == v) {
                 number[v] = Some(left);
                 left += 1;
@@ -446,17 +432,10 @@ fn half_edges(sets: &[Set], nodes: &[usize]) -> (Vec<[usize; 3]>, Vec<Vec<usize>
     )
 }
 
-fn rotate<T>(list: &mut [T], by: usize) {
-    if !list.is_empty() {
-        let by = by % list.len();
-        list.rotate_left(by);
-    }
-}
-
-/// An order that looks random: the same one for the same numbers.
-fn shuffle<T>(list: &mut [T], chart: usize, which: u64) {
-    let mut state = (chart as u64) << 32 | which;
-    for k in (1..list.len()).rev() {
+/// An order that looks random, the same one for the same number; 0 leaves a list as it is.
+fn shuffle<T>(list: &mut [T], number: usize) {
+    let mut state = number as u64;
+    for k in (1..list.len()).rev().filter(|_| number > 0) {
         // Splitmix64 (Steele, Lea, Flood 2014); which order is taken decides nothing.
         state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut mixed = state;

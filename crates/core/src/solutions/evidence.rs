@@ -1,48 +1,26 @@
 //! What bounds for the number of solutions rest on: the data of docs/certificate.md, section 12, as
 //! they are found.
 
-use super::number::Number;
-
 /// What is known of the number of solutions of a finite solvable graph, and why.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Solutions {
     /// There are as many at least; one always is.
-    pub at_least: Number,
+    pub at_least: usize,
     /// There are no more than that, if such a bound was found.
-    pub at_most: Option<Number>,
-    /// Merges of members; one member is left if they alone are the proof.
-    pub merges: Vec<Merge>,
-    /// What the upper bound rests on, if there is one and merges are not enough.
+    pub at_most: Option<usize>,
+    /// What the upper bound rests on, if there is one and more than one member.
     pub upper: Option<Upper>,
     /// What the lower bound rests on, if it is above one.
     pub lower: Option<Lower>,
-    /// What the members left fall into, if that is more than one factor: the bounds are products then,
-    /// and there is no other evidence.
-    pub product: Vec<Factor>,
-    /// What the core has more of equations than of unknowns, before parts of it are grown; `None`
-    /// if merges leave one member.
+    /// What the core has more of equations than of unknowns; `None` if there is one member.
     pub excess: Option<i64>,
 }
 
 impl Solutions {
     /// The number of solutions, if it is known.
-    pub fn exactly(&self) -> Option<&Number> {
-        self.at_most.as_ref().filter(|&most| *most == self.at_least)
+    pub fn exactly(&self) -> Option<usize> {
+        self.at_most.filter(|&most| most == self.at_least)
     }
-}
-
-/// A factor of Corollary 10.17.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Factor {
-    /// The shared nodes of its members, as nodes of the graph.
-    pub members: Vec<Vec<u32>>,
-    /// Pairs of nodes in which it hangs together with others and that are members like those, as far
-    /// as `solutions` goes.
-    pub pairs: Vec<[u32; 2]>,
-    /// Where u = 1 shows that it is finite solvable without the pairs, if there are any.
-    pub rigid: Option<Place>,
-    /// How many solutions it has.
-    pub solutions: Solutions,
 }
 
 /// Where the evidence holds: the scales that are unknown, the prime, and the centres.
@@ -68,7 +46,7 @@ pub enum One {
         unknowns: Vec<usize>,
         /// The largest exponent of each.
         bounds: Vec<usize>,
-        /// Exponents within the bounds at which all coefficients are zero by Theorems 10.7 and 10.23.
+        /// Exponents within the bounds at which all coefficients are zero by Theorem 10.7.
         absent: Vec<Vec<usize>>,
         /// Minors that vanish at all solutions.
         minors: Vec<Minor>,
@@ -96,20 +74,6 @@ pub struct Lower {
     pub points: Vec<Vec<u64>>,
 }
 
-/// One merge of members into one.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Merge {
-    /// Why the members are one.
-    pub rule: Rule,
-    /// The nodes that the rule speaks of, as nodes of the graph: the two that are shared; the
-    /// three corners; or the two of the one side of the biclique and then those of the other.
-    pub at: Vec<u32>,
-    /// The shared nodes of the members that were merged, as nodes of the graph.
-    pub members: Vec<Vec<u32>>,
-    /// Why the part between the nodes has one solution, if it was grown.
-    pub grown: Option<Box<Solutions>>,
-}
-
 /// Why members are one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rule {
@@ -127,9 +91,6 @@ pub enum Rule {
     Removed,
     /// Stresses at a node of a rigid part (Theorem 19.11).
     Stressed,
-    /// The part of the core between them is finite solvable and proved to have one solution
-    /// (Proposition 10.11).
-    Grown,
 }
 
 impl Rule {
@@ -143,7 +104,6 @@ impl Rule {
             Self::Link => "link",
             Self::Removed => "removed",
             Self::Stressed => "stressed",
-            Self::Grown => "part",
         }
     }
 }
@@ -178,7 +138,8 @@ pub struct Linear {
     pub settled: Vec<usize>,
 }
 
-/// A minor of N(u), with rows freed, that vanishes at all solutions.
+/// A minor of N(u), with rows freed, that vanishes at all solutions. It is multiplied by all monomials
+/// with which it stays within the degree bounds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Minor {
     /// How many rows are freed.
@@ -187,9 +148,6 @@ pub struct Minor {
     pub rows: Vec<Part>,
     /// Its columns, as many.
     pub columns: Vec<usize>,
-    /// The monomials by which it is multiplied, as exponents of the unknowns of the step; with `None` all
-    /// with which it stays within the degree bounds.
-    pub shifts: Option<Vec<Vec<usize>>>,
 }
 
 /// A row of a minor.
@@ -210,7 +168,7 @@ pub struct AtMost {
     pub unknowns: Vec<usize>,
     /// The largest exponent of each, shifts included.
     pub bounds: Vec<usize>,
-    /// Exponents within the bounds at which all coefficients are zero by Theorems 10.7 and 10.23.
+    /// Exponents within the bounds at which all coefficients are zero by Theorem 10.7.
     pub absent: Vec<Vec<usize>>,
     /// Minors that vanish at all solutions.
     pub minors: Vec<Minor>,

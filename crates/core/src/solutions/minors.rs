@@ -27,17 +27,6 @@ const MOST_CHOICES: usize = 60;
 /// Most columns in which all minors of some rows are computed at once: 2^12 of them.
 const MOST_COLUMNS: usize = 12;
 
-/// Which minors are wanted after one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Next {
-    /// Whichever comes next.
-    Minor,
-    /// Those of other rows.
-    Rows,
-    /// None.
-    Nothing,
-}
-
 /// The minors of a system in some unknowns.
 pub(super) struct Minors<'a> {
     system: &'a System<'a>,
@@ -77,7 +66,7 @@ impl<'a> Minors<'a> {
     pub(super) fn with_freed(
         &self,
         freed: &[usize],
-        each: &mut impl FnMut(Polynomial) -> Next,
+        each: &mut impl FnMut(Polynomial) -> bool,
     ) -> bool {
         let Some(reduced) = self.reduced(freed) else {
             return true;
@@ -166,68 +155,13 @@ impl<'a> Minors<'a> {
         (0..self.unknowns.len()).map(degree).collect()
     }
 
-    /// The minor with these rows freed, these left out and all others whole, in all columns, of which there
-    /// are as many; `None` if it vanishes. All open unknowns have to be among those of the minors.
-    pub(super) fn single(&self, freed: &[usize], out: &[usize]) -> Option<Polynomial> {
-        let (system, field) = (self.system, &self.system.field);
-        let mut span = Span::default();
-        let mut parts = Vec::with_capacity(system.columns);
-        for &row in freed {
-            for (which, part) in [(0, Part::Plus(row)), (1, Part::Minus(row))] {
-                parts.push(part);
-                let is_new = span.insert(field, system.rows[row].side(which, system.columns));
-                is_new.then_some(())?;
-            }
-        }
-        let is_whole = |row: &usize| !freed.contains(row) && !out.contains(row);
-        let mut variable = Vec::new();
-        for row in (0..system.rows.len()).filter(is_whole) {
-            parts.push(Part::Whole(row));
-            if system.is_constant(row, self.values) {
-                let is_new = span.insert(field, system.constant(row, self.values));
-                is_new.then_some(())?;
-            } else {
-                variable.push(row);
-            }
-        }
-        let columns: Vec<usize> = (0..system.columns).collect();
-        let is_free = |column: &usize| !span.pivots().contains(column);
-        let free: Vec<usize> = columns.iter().copied().filter(is_free).collect();
-        let reduced_side = |row: usize, which: usize| -> Vec<u64> {
-            let mut side = self.side(row, which);
-            span.reduce(field, &mut side);
-            free.iter().map(|&column| side[column]).collect()
-        };
-        let sides: Vec<[Vec<u64>; 2]> = variable
-            .iter()
-            .map(|&row| [0, 1].map(|which| reduced_side(row, which)))
-            .collect();
-        let rows = variable.iter().zip(&sides);
-        let rows: Vec<ScaledRow<'_>> = rows
-            .map(|(&row, both)| self.scaled_row(row, both))
-            .collect();
-        let degrees = self.degrees(&rows);
-        let (_, mut values) = on_grid(field, &rows, free.len(), &degrees).pop()?;
-        interpolate(field, &self.inverses, &degrees, &mut values);
-        Some(Polynomial {
-            minor: Minor {
-                freed: freed.len(),
-                rows: parts,
-                columns,
-                shifts: None,
-            },
-            degrees,
-            coefficients: values,
-        })
-    }
-
-    /// The minors with some of the rows with open unknowns; whether those of other rows are wanted.
+    /// The minors with some of the rows with open unknowns; whether more of them are wanted.
     fn of_rows(
         &self,
         reduced: &Reduced,
         freed: usize,
         chosen: &[usize],
-        each: &mut impl FnMut(Polynomial) -> Next,
+        each: &mut impl FnMut(Polynomial) -> bool,
     ) -> bool {
         let rows: Vec<ScaledRow<'_>> = chosen
             .iter()
@@ -235,11 +169,7 @@ impl<'a> Minors<'a> {
             .collect();
         let degrees = self.degrees(&rows);
         let field = &self.system.field;
-        let mut found = on_grid(field, &rows, reduced.free.len(), &degrees);
-        if self.unknowns.len() > FEW {
-            scatter(&mut found);
-        }
-        for (columns, mut values) in found {
+        for (columns, mut values) in on_grid(field, &rows, reduced.free.len(), &degrees) {
             interpolate(field, &self.inverses, &degrees, &mut values);
             let whole = chosen.iter().map(|&k| Part::Whole(reduced.variable[k]));
             let of_free = columns.into_iter().map(|k| reduced.free[k]);
@@ -247,35 +177,18 @@ impl<'a> Minors<'a> {
                 freed,
                 rows: reduced.parts.iter().copied().chain(whole).collect(),
                 columns: reduced.pivots.iter().copied().chain(of_free).collect(),
-                shifts: None,
             };
             let polynomial = Polynomial {
                 minor,
                 degrees: degrees.clone(),
                 coefficients: values,
             };
-            match each(polynomial) {
-                Next::Minor => {}
-                Next::Rows => return true,
-                Next::Nothing => return false,
+            if !each(polynomial) {
+                return false;
             }
         }
         true
     }
-}
-
-/// With so many unknowns all minors add little to those before them; with more there are many that add
-/// much, if neighbours in the order of columns do not come one after the other.
-pub(super) const FEW: usize = 4;
-
-/// Puts in each place what is a fixed step further on than what is before it.
-fn scatter<T>(list: &mut Vec<T>) {
-    let len = list.len();
-    let coprime = |step: &usize| num_integer::gcd(*step, len) == 1;
-    // Near the golden section, where multiples of the step spread out.
-    let step = (len * 5 / 8..len).find(coprime).unwrap_or(1);
-    let mut all: Vec<Option<T>> = list.drain(..).map(Some).collect();
-    list.extend((0..len).filter_map(|k| all[k * step % len].take()));
 }
 
 /// The rows with open unknowns, without what the other rows span.

@@ -3,12 +3,10 @@
 //! In: a graph. It is contracted to members (`members`), whose shared nodes form a core with a
 //! few unknown scales (`chart`). Out: bounds for the number of solutions and what they rest
 //! on: scales that are one by linear algebra (`linear`, Theorem 10.6) or by the span of minors
-//! (`support`, Theorem 10.5; `balanced`, Lemma 10.24), points near which all others are (`points`, Theorem 10.8), and
-//! simple points of tight cores (`simple`, Theorem 10.10). What hangs together in a few nodes only
-//! is counted apart, and numbers multiply (`product`, Corollary 10.17; `number`). Every bound is a
-//! proof; what it rests on is in `evidence`. A second solution can be looked at (`witness`).
+//! (`support`, Theorem 10.5), points near which all others are (`points`, Theorem 10.8), and
+//! simple points of tight cores (`simple`, Theorem 10.10). Every bound is a proof; what it rests on
+//! is in `evidence`. A second solution can be looked at (`witness`).
 
-mod balanced;
 mod chart;
 mod count;
 mod evidence;
@@ -16,9 +14,7 @@ mod exponents;
 mod linear;
 mod members;
 mod minors;
-mod number;
 mod points;
-mod product;
 mod roots;
 mod simple;
 mod support;
@@ -28,13 +24,11 @@ mod tests;
 mod witness;
 mod zeros;
 
-pub use count::{Effort, count};
-pub(crate) use count::{Plan, count_in};
+pub use count::count;
+pub(crate) use count::count_in;
 pub use evidence::{
-    AtMost, Chart, Factor, Linear, Lower, Merge, Minor, One, Part, Place, Rule, Scale, Solutions,
-    Upper,
+    AtMost, Chart, Linear, Lower, Minor, One, Part, Place, Rule, Scale, Solutions, Upper,
 };
 pub use members::MOST_NODES;
 pub(crate) use members::nodes_of;
-pub use number::Number;
 pub use witness::Witness;

@@ -92,11 +92,7 @@ impl Space {
             unknowns: span.unknowns.clone(),
             absent: self.exponents.marked(&self.absent),
             bounds: self.exponents.bounds.clone(),
-            minors: span
-                .generators
-                .iter()
-                .map(|generator| generator.polynomial.minor.clone())
-                .collect(),
+            minors: span.minors(),
             points: Vec::new(),
             settled: Vec::new(),
         };

@@ -1,13 +1,13 @@
-//! The span of minors in a few unknowns (docs/theory.md, Theorems 10.5, 10.7 and 10.23).
+//! The span of minors in a few unknowns (docs/theory.md, Theorems 10.5 and 10.7).
 //!
 //! In: a system and some of its unknowns. Out: minors with independent polynomials, the rank of
 //! all their multiples within degree bounds, and the exponents that never occur.
 
-use super::balanced::Balanced;
+use super::evidence::Minor;
 use super::exponents::Exponents;
-use super::minors::{FEW, Minors, Next, Polynomial};
+use super::minors::{Minors, Polynomial};
 use super::system::{System, Values, subsets};
-use super::zeros::{has_choice, has_transversal};
+use super::zeros::has_transversal;
 use crate::linalg::prime::PrimeField;
 use crate::linalg::span::Span;
 use std::borrow::Cow;
@@ -28,8 +28,7 @@ impl Generator {
         }
     }
 
-    /// Whether a coefficient is the zero polynomial in the centres by Theorem 10.7 or, if the minor is
-    /// balanced, 10.23, which says more and costs more.
+    /// Whether a coefficient is the zero polynomial in the centres by Theorem 10.7.
     pub(super) fn is_zero(&self, system: &System<'_>, unknowns: &[usize], place: usize) -> bool {
         let known = self.zero.borrow()[place];
         known.unwrap_or_else(|| {
@@ -40,11 +39,8 @@ impl Generator {
             } = &self.polynomial;
             let bounds = degrees.clone();
             let exponent = &Exponents { bounds }.all()[place];
-            let is_out_of_reach = match minor.shifts {
-                None => !has_transversal(system, minor, unknowns, exponent),
-                Some(_) => !has_choice(system, minor, unknowns, exponent),
-            };
-            let zero = coefficients[place] == 0 && is_out_of_reach;
+            let zero =
+                coefficients[place] == 0 && !has_transversal(system, minor, unknowns, exponent);
             self.zero.borrow_mut()[place] = Some(zero);
             zero
         })
@@ -56,13 +52,6 @@ const MOST_VALUES: usize = 1 << 10;
 
 /// After so many minors in a row that add nothing no more are looked at.
 const MOST_IDLE: usize = 120;
-
-/// The same in all unknowns at once, for those of other rows; their columns come in an order that is far
-/// from any.
-const MOST_IDLE_OF_ROWS: usize = 12;
-
-/// The same of balanced minors, which are drawn.
-const MOST_IDLE_OF_BALANCED: usize = 100;
 
 /// The span of the minors in some unknowns, shifts within the bounds included.
 pub(super) struct MinorSpan {
@@ -77,8 +66,7 @@ pub(super) struct MinorSpan {
 
 impl MinorSpan {
     /// The minors in some unknowns without value; other rows with unknowns are freed, three at
-    /// most, or dropped. Stops early when only one point is left. With more than [`FEW`] unknowns no row
-    /// is freed: what freeing forgets is what is left over there.
+    /// most, or dropped. Stops early when only one point is left.
     pub(super) fn new(system: &System<'_>, values: &Values, unknowns: &[usize]) -> Option<Self> {
         let degrees = system.core.degrees(&system.rows);
         let exponents = Exponents {
@@ -87,18 +75,13 @@ impl MinorSpan {
         if exponents.len() > MOST_VALUES {
             return None;
         }
-        let (most_freed, patience, after) = match unknowns.len() {
-            0..=FEW => (3, MOST_IDLE, Next::Nothing),
-            _ => (0, MOST_IDLE_OF_ROWS, Next::Rows),
-        };
-        let mut collected = Collected::new(&exponents, patience, after);
+        let mut collected = Collected::new(&exponents);
         let minors = Minors::new(system, values, unknowns);
         let scaled = system.scaled(values);
-        for size in (0..=scaled.len().min(most_freed)).rev() {
+        for size in (0..=scaled.len().min(3)).rev() {
             let unfinished = subsets(&scaled, size, &mut |freed| {
-                minors.with_freed(freed, &mut |polynomial| match system.is_stopped() {
-                    true => Next::Nothing,
-                    false => collected.add(&system.field, &exponents, polynomial),
+                minors.with_freed(freed, &mut |polynomial| {
+                    !system.is_stopped() && collected.add(&system.field, &exponents, polynomial)
                 })
             });
             if !unfinished {
@@ -108,33 +91,12 @@ impl MinorSpan {
         Some(collected.into_span(unknowns, exponents))
     }
 
-    /// The balanced minors in all unknowns without value, with one shift each (Lemma 10.24): in each term
-    /// every node is taken as often. `which` says how often.
-    pub(super) fn balanced(
-        system: &System<'_>,
-        values: &Values,
-        unknowns: &[usize],
-        which: usize,
-    ) -> Option<Self> {
-        let degrees = system.core.degrees(&system.rows);
-        let exponents = Exponents {
-            bounds: unknowns.iter().map(|&f| degrees[f]).collect(),
-        };
-        if exponents.len() > MOST_VALUES {
-            return None;
-        }
-        let minors = Minors::new(system, values, unknowns);
-        let mut balanced = Balanced::new(system, which)?;
-        let mut collected = Collected::new(&exponents, MOST_IDLE_OF_BALANCED, Next::Rows);
-        let mut next = Next::Minor;
-        while next == Next::Minor && !system.is_stopped() {
-            let drawn = balanced.draw(&minors, values, unknowns);
-            next = match drawn.filter(|polynomial| polynomial.stays_within(&exponents)) {
-                Some(polynomial) => collected.add(&system.field, &exponents, polynomial),
-                None => collected.idle(),
-            };
-        }
-        Some(collected.into_span(unknowns, exponents))
+    /// The minors in the span.
+    pub(super) fn minors(&self) -> Vec<Minor> {
+        let minors = self.generators.iter();
+        minors
+            .map(|generator| generator.polynomial.minor.clone())
+            .collect()
     }
 
     /// If only u = 1 is left (Theorem 10.5), the exponents that are absent: the rank is one less than
@@ -240,18 +202,13 @@ struct Collected {
     polynomials: Vec<Polynomial>,
     /// Where some shift has a coefficient at these centres.
     seen: Vec<bool>,
+    /// So many in a row added nothing.
     idle: usize,
-    /// After so many in a row that add nothing.
-    patience: usize,
-    /// What is wanted then.
-    after: Next,
 }
 
 impl Collected {
-    fn new(exponents: &Exponents, patience: usize, after: Next) -> Self {
+    fn new(exponents: &Exponents) -> Self {
         Self {
-            patience,
-            after,
             span: Span::default(),
             polynomials: Vec::new(),
             seen: vec![false; exponents.len()],
@@ -259,8 +216,8 @@ impl Collected {
         }
     }
 
-    /// Takes a polynomial in if it adds to the span; returns which others are of use.
-    fn add(&mut self, field: &PrimeField, exponents: &Exponents, polynomial: Polynomial) -> Next {
+    /// Takes a polynomial in if it adds to the span; returns whether others are of use.
+    fn add(&mut self, field: &PrimeField, exponents: &Exponents, polynomial: Polynomial) -> bool {
         let mut new = false;
         polynomial.each_shift(exponents, &mut |shifted| {
             for (seen, &coefficient) in self.seen.iter_mut().zip(shifted.iter()) {
@@ -276,24 +233,7 @@ impl Collected {
         }
         // The vector of ones is always annihilated.
         let seen = self.seen.iter().filter(|&&seen| seen).count();
-        if self.span.dimension() + 1 == seen && self.after == Next::Nothing {
-            return Next::Nothing;
-        }
-        self.go_on()
-    }
-
-    /// One was looked at that adds nothing.
-    fn idle(&mut self) -> Next {
-        self.idle += 1;
-        self.go_on()
-    }
-
-    fn go_on(&mut self) -> Next {
-        if self.idle < self.patience {
-            return Next::Minor;
-        }
-        self.idle = 0;
-        self.after
+        self.span.dimension() + 1 != seen && self.idle < MOST_IDLE
     }
 
     fn into_span(self, unknowns: &[usize], exponents: Exponents) -> MinorSpan {
@@ -322,25 +262,8 @@ impl Polynomial {
         }
     }
 
-    /// Whether listed shifts do not lead beyond the bounds.
-    fn stays_within(&self, exponents: &Exponents) -> bool {
-        let shifts = self.minor.shifts.iter().flatten();
-        let within = |shift: &Vec<usize>| {
-            let sums = shift
-                .iter()
-                .zip(&self.degrees)
-                .map(|(b, degree)| b + degree);
-            sums.zip(&exponents.bounds)
-                .all(|(sum, &bound)| sum <= bound)
-        };
-        shifts.into_iter().all(within)
-    }
-
     /// The places of the monomials by which it is multiplied within the bounds.
     fn shifts(&self, exponents: &Exponents) -> Vec<usize> {
-        if let Some(shifts) = &self.minor.shifts {
-            return shifts.iter().map(|shift| exponents.index(shift)).collect();
-        }
         let room = exponents.bounds.iter().zip(&self.degrees);
         let room: Vec<usize> = room.map(|(bound, degree)| bound - degree).collect();
         exponents.places(&room)

@@ -33,7 +33,7 @@ impl Solutions {
     /// Two solutions of the graph that was counted; `None` if no second one is known. `seed` selects
     /// the centres of nodes that no two members share. O(n^3) for n shared nodes.
     pub fn witness(&self, graph: &Graph, seed: u64) -> Option<Witness> {
-        let lower = self.several()?;
+        let lower = self.lower.as_ref()?;
         let field = PrimeField::new(lower.place.prime).ok()?;
         let key = DrawKey {
             graph_sha256: sha256(graph),
@@ -62,19 +62,6 @@ impl Solutions {
                 families: [first, second].map(residues),
             }
         })
-    }
-}
-
-impl Solutions {
-    /// Points of the core, or of the first factor that has some. What hangs on a factor hangs on one of
-    /// its members.
-    fn several(&self) -> Option<&Lower> {
-        let of_factors = || {
-            self.product
-                .iter()
-                .find_map(|factor| factor.solutions.several())
-        };
-        self.lower.as_ref().or_else(of_factors)
     }
 }
 
@@ -299,10 +286,10 @@ impl<'a> At<'a> {
 mod tests {
     use super::*;
     use crate::graph::graph6;
-    use crate::solutions::{Effort, count};
+    use crate::solutions::count;
 
     fn witness(graph: &Graph) -> Option<Witness> {
-        count(graph, Effort::default(), 1)?.witness(graph, 1)
+        count(graph, 1)?.witness(graph, 1)
     }
 
     /// Published graphs with two solutions, as they are and with a triangle for every edge but one.
@@ -320,15 +307,6 @@ mod tests {
             let found = witness(&with_bodies).unwrap();
             assert_eq!(found.families[1].len(), 9 + edges.len() - 1);
         }
-    }
-
-    /// Three cores, two of which hang together in two nodes that are not adjacent.
-    #[test]
-    fn in_a_factor() {
-        let name = "YoO{b?WB???@?o?@?POEG?_O?H???A?????B?O?O??@g??O???a???E?";
-        let graph = graph6::decode(name.as_bytes()).unwrap();
-        let found = witness(&graph).unwrap();
-        assert_eq!(found.families.each_ref().map(Vec::len), [26, 26]);
     }
 
     /// Eight nodes with one solution.

@@ -1,5 +1,5 @@
 //! Coefficients of minors that are zero at all centres, for want of a transversal (docs/theory.md,
-//! Theorems 10.7 and 10.23).
+//! Theorem 10.7).
 
 use super::evidence::{Minor, Part};
 use super::system::System;
@@ -51,84 +51,6 @@ pub(super) fn has_transversal(
     };
     let allowed: Vec<Vec<usize>> = minor.rows.iter().map(columns_of).collect();
     is_matched(&allowed, system.columns)
-}
-
-/// Whether there is a transversal for some choice of a side of each row with an unknown, each unknown being
-/// that of as many as its exponent says (Theorem 10.23).
-pub(super) fn has_choice(
-    system: &System<'_>,
-    minor: &Minor,
-    unknowns: &[usize],
-    exponent: &[usize],
-) -> bool {
-    let place = |scale: Option<usize>| scale.and_then(|f| unknowns.iter().position(|&g| g == f));
-    let columns = |row: usize, which: usize| entries(system, minor, row, which);
-    let mut choices = Choices {
-        open: Vec::new(),
-        allowed: Vec::with_capacity(minor.rows.len()),
-        left: exponent.to_vec(),
-        columns: system.columns,
-    };
-    for part in &minor.rows {
-        match *part {
-            Part::Plus(row) => choices.allowed.push(columns(row, 0)),
-            Part::Minus(row) => choices.allowed.push(columns(row, 1)),
-            Part::Whole(row) => {
-                let both = [columns(row, 0), columns(row, 1)];
-                let scales = system.rows[row]
-                    .sides
-                    .each_ref()
-                    .map(|side| place(side.scale));
-                match scales {
-                    [None, None] => choices.allowed.push(both.concat()),
-                    _ => choices.open.push(OpenRow { both, scales }),
-                }
-            }
-        }
-    }
-    choices.any_matched(0)
-}
-
-/// A row with unknowns: the columns of both sides, and which unknowns these are.
-#[derive(Clone)]
-struct OpenRow {
-    both: [Vec<usize>; 2],
-    scales: [Option<usize>; 2],
-}
-
-/// Rows of a minor and what may be chosen of them.
-struct Choices {
-    open: Vec<OpenRow>,
-    /// The columns of the other rows, and of the sides that are chosen.
-    allowed: Vec<Vec<usize>>,
-    /// How often each unknown has still to be chosen.
-    left: Vec<usize>,
-    columns: usize,
-}
-
-impl Choices {
-    /// Whether there is a transversal for some choice in the rows from one on.
-    fn any_matched(&mut self, next: usize) -> bool {
-        let Some(OpenRow { both, scales }) = self.open.get(next).cloned() else {
-            return self.left.iter().all(|&left| left == 0)
-                && is_matched(&self.allowed, self.columns);
-        };
-        both.into_iter().zip(scales).any(|(side, scale)| {
-            if let Some(f) = scale {
-                if self.left[f] == 0 {
-                    return false;
-                }
-                self.left[f] -= 1;
-            }
-            self.allowed.push(side);
-            let matched = self.any_matched(next + 1);
-            self.allowed.pop();
-            if let Some(f) = scale {
-                self.left[f] += 1;
-            }
-            matched
-        })
-    }
 }
 
 /// The columns of a minor in which a side has an entry other than the zero polynomial.
