@@ -59,7 +59,7 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
     let of_components = verdict.components.iter().map(|one| &one.solutions);
     let mut counts = of_components.chain([&verdict.solutions]).flatten();
     if counts.any(|count| count.full_may_tell_more) {
-        let hint = "--solutions=full may tell how many solutions, in about a second";
+        let hint = "--solutions=full may tell how many solutions, in seconds or minutes";
         writeln!(out, "  hint        {hint}")?;
     }
     for condition in report.scope.conditions() {

@@ -23,7 +23,7 @@ pub struct SolutionCount {
     pub at_least: usize,
     /// There are no more than that, if such a bound is known.
     pub at_most: Option<usize>,
-    /// Whether a quick count left the number open that a full one looks at.
+    /// Whether a quick count left the number open, and a full one looks at more.
     pub full_may_tell_more: bool,
     /// Rounds of removing nodes, where they show that there is one solution, or what is counted goes
     /// on from them.

@@ -24,11 +24,17 @@ const MOST_UNKNOWNS: usize = 12;
 /// second, and up to 1.6 seconds where it fails.
 const QUICK_COST: usize = 12usize.pow(4) * 17usize.pow(3);
 
-/// How many charts are tried, and with [`MANY_UNKNOWNS`].
-const CHARTS: [usize; 2] = [12, 2];
+/// So many charts are looked at together.
+const CHARTS: usize = 6;
 
-/// With so many unknowns there are so many choices of a few of them that less is tried.
+/// How often so many charts are looked at, in a quick count and in a full one.
+const TIMES: [usize; 2] = [2, 16];
+
+/// With so many unknowns there are so many choices of a few of them that only [`FEW_CHARTS`] are tried, once.
 const MANY_UNKNOWNS: usize = 8;
+
+/// See [`MANY_UNKNOWNS`].
+const FEW_CHARTS: usize = 2;
 
 /// Unknowns that are looked at at once in every chart before more of them are in any.
 const FEW: usize = 3;
@@ -97,7 +103,7 @@ pub fn count(graph: &Graph, seed: u64) -> Option<Solutions> {
 
 /// As [`count`], for the part of a graph that uniquely determined members with these nodes form: bodies
 /// and edges of its contraction in the projective model. Also whether a quick count left out what a
-/// full one looks at.
+/// full one tries.
 ///
 /// # Errors
 /// If the work is stopped.
@@ -115,10 +121,13 @@ pub(crate) fn count_in(
     }
     let work = task.at(Step::Solutions).begin(0);
     let draws = Draws::new(graph, seed, &work);
-    let found = Members::new(&members).and_then(|members| count_core(&members, &draws));
+    let times = TIMES[usize::from(!is_quick)];
+    let found = Members::new(&members).and_then(|members| count_core(&members, times, &draws));
     // What was found after a stop is not all that there is.
     work.done(0)?;
-    Ok((found, false))
+    let is_open = |of: &Solutions| of.at_most.is_none() && size.unknowns < MANY_UNKNOWNS;
+    let may_tell_more = is_quick && found.as_ref().is_some_and(is_open);
+    Ok((found, may_tell_more))
 }
 
 /// Leaves of each member the nodes that lie in two at least, increasing.
@@ -210,31 +219,42 @@ impl<'w> Draws<'w> {
 
 /// Bounds for a core, chart after chart. What costs little in every chart comes before what costs
 /// more in any: few unknowns at the first centres, more unknowns, other centres.
-fn count_core(members: &Members, draws: &Draws<'_>) -> Option<Solutions> {
+fn count_core(members: &Members, times: usize, draws: &Draws<'_>) -> Option<Solutions> {
     let mut best = Solutions::nothing((members.sets.len() > 1).then(|| members.excess()));
     if members.sets.len() == 1 {
         best.at_most = Some(1);
         return Some(best);
     }
     let is_many = Core::new(members, 0)?.unknowns >= MANY_UNKNOWNS;
-    let mut charts: Vec<Charted> = Vec::with_capacity(CHARTS[0]);
-    for chart in 0..CHARTS[usize::from(is_many)] {
-        let core = Core::new(members, chart)?;
-        let mut charted = Charted::new(core, members.excess() == 0, draws)?;
-        charted.conclude(draws, &mut best);
-        charted.few(draws, &mut best);
-        if best.exactly().is_some() || draws.work.is_stopped() {
-            return Some(best);
+    let (times, count) = match is_many {
+        true => (1, FEW_CHARTS),
+        false => (times, CHARTS),
+    };
+    for time in 0..times {
+        let mut charts: Vec<Charted> = Vec::with_capacity(count);
+        for chart in time * count..(time + 1) * count {
+            let core = Core::new(members, chart)?;
+            let Some(mut charted) = Charted::new(core, members.excess() == 0, draws) else {
+                return (time > 0).then_some(best);
+            };
+            charted.conclude(draws, &mut best);
+            charted.few(draws, &mut best);
+            if best.exactly().is_some() || draws.work.is_stopped() {
+                return Some(best);
+            }
+            charts.push(charted);
         }
-        charts.push(charted);
-    }
-    for charted in charts.iter_mut().filter(|_| !is_many) {
-        charted.more(draws, &mut best);
+        for charted in charts.iter_mut().filter(|_| !is_many) {
+            charted.more(draws, &mut best);
+            if best.exactly().is_some() || draws.work.is_stopped() {
+                return Some(best);
+            }
+        }
+        redraw(&charts, draws, &mut best);
         if best.exactly().is_some() || draws.work.is_stopped() {
-            return Some(best);
+            break;
         }
     }
-    redraw(&charts, draws, &mut best);
     Some(best)
 }
 
