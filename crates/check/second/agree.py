@@ -360,99 +360,16 @@ def empty_list(document, rng):
     rng.choice(lists_of(document, 1)).clear()
 
 
-def nest_part(document, rng):
-    """What is shown of the members becomes that of a part, which is all of them; or a merge becomes a part."""
-    evidence = document["solutions"]
-    for _ in range(rng.randrange(1, 4)):
-        inner = [merge for merge in evidence["merges"] if merge["rule"] == "part"]
-        if inner and rng.random() < 0.4:
-            evidence = rng.choice(inner)["solutions"]
-    if evidence["merges"] and rng.random() < 0.5:
-        merge = rng.choice(evidence["merges"])
-        own = {**merge, "with": list(range(len(merge["with"])))}
-        nodes = set(merge["at"]) if merge["rule"] == "part" else set(range(document["graph"]["nodes"]))
-        merge.update({"rule": "part", "at": sorted(nodes)})
-        merge["solutions"] = {"merges": [own], "upper": None, "lower": None}
-        return
-    whole = {"merges": evidence["merges"], "upper": evidence["upper"], "lower": evidence["lower"]}
-    count = len(document["pieces"][0]["edges"]) + len(document["pieces"][0]["bodies"])
-    part = {"rule": "part", "with": list(range(count)), "at": list(range(document["graph"]["nodes"])), "solutions": copy_of(whole)}
-    if rng.random() < 0.5:
-        part["solutions"]["lower"] = None
-    evidence.update({"merges": [part], "upper": None, "lower": None})
-
-
-def change_shifts(document, rng):
-    """A minor has all shifts, or one more or less, or another; or one exponent more is absent, or one less."""
+def change_absent(document, rng):
+    """One exponent more is absent, or one less."""
     spans = [c[k] for c, k in places(document) if type(c[k]) is dict and type(c[k].get("absent")) is list and c[k].get("minors")]
     span = rng.choice(spans)
-    minor, bounds = rng.choice(span["minors"]), span["bounds"]
-    drawn = [rng.randrange(bound + 1) for bound in bounds]
-    way = rng.randrange(5)
-    if way == 0:
-        minor.pop("shifts", None)
-    elif way == 1:
-        minor["shifts"] = sorted([*minor.get("shifts", []), [min(1, b) for b in drawn]])
-    elif way == 2:
-        minor["shifts"] = [rng.choice([drawn, [0] * len(bounds)])]
-    else:
-        absent = span["absent"]
-        if way == 3 and absent:
-            del absent[rng.randrange(len(absent))]
-        elif drawn not in absent:
-            span["absent"] = sorted([*absent, drawn])
-
-
-def products_in(document):
-    """All objects with a product."""
-    return [c[k] for c, k in places(document) if type(c[k]) is dict and type(c[k].get("product")) is list]
-
-
-def into_factors(document, rng):
-    """Members fall into factors, at random; what was shown of them goes to one of these, or to all."""
-    evidence = rng.choice([document["solutions"], *[factor["solutions"] for one in products_in(document) for factor in one["product"]]])
-    count = len(document["pieces"][0]["edges"]) + len(document["pieces"][0]["bodies"]) + len(evidence["merges"])
-    gone = {number for merge in evidence["merges"] for number in merge["with"]}
-    left = [number for number in range(count) if number not in gone]
-    rng.shuffle(left)
-    cut = rng.randrange(len(left) + 1)
-    sides = [left[:cut], left[cut:]]
-    for _ in range(rng.choice([0, 1, 1, 2])):
-        number = rng.choice(left)
-        sides = [[*side, number] for side in sides] if rng.random() < 0.7 else [*sides, [number]]
-    inner = {"merges": [], "upper": evidence["upper"], "lower": evidence["lower"]}
-    nothing = {"merges": [], "upper": None, "lower": None}
-    rigid = evidence["upper"] and {name: evidence["upper"][name] for name in ("chart", "centres")}
-    evidence["product"] = [
-        {"with": sorted(set(side)), "solutions": copy_of(rng.choice([inner, nothing])), "rigid": rng.choice([None, None, copy_of(rigid)])}
-        for side in sides
-    ]
-    evidence.update({"upper": None, "lower": None})
-
-
-def change_factor(document, rng):
-    """Factors change places, or become one, or two, or exchange a member or their evidence."""
-    factors = rng.choice(products_in(document))["product"]
-    a, b = rng.sample(range(len(factors)), 2)
-    way = rng.randrange(7)
-    if way == 0:
-        factors[a], factors[b] = factors[b], factors[a]
-    elif way == 1:
-        number = rng.choice(factors[a]["with"])
-        if rng.random() < 0.6:
-            factors[a]["with"].remove(number)
-        factors[b]["with"] = sorted({*factors[b]["with"], number})
-    elif way == 2:
-        factors[a]["with"] = sorted({*factors[a]["with"], *factors[b]["with"]})
-        del factors[b]
-    elif way == 3:
-        factors.insert(b, copy_of(factors[a]))
-    elif way == 4:
-        factors[a]["rigid"] = copy_of(factors[b]["rigid"]) if rng.random() < 0.5 else None
-    elif way == 5:
-        factors[a]["solutions"] = copy_of(factors[b]["solutions"])
-    else:
-        factors[a]["solutions"].update({rng.choice(["upper", "lower"]): None})
+    drawn = [rng.randrange(bound + 1) for bound in span["bounds"]]
+    absent = span["absent"]
+    if absent and rng.random() < 0.5:
+        del absent[rng.randrange(len(absent))]
+    elif drawn not in absent:
+        span["absent"] = sorted([*absent, drawn])
 
 
 def double_entry(document, rng):
@@ -802,16 +719,16 @@ MUTATIONS = (
     *(change_number, change_number, swap_entries, delete_entry, double_entry, move_entry, move_entry, replace_value),
     *(change_type, delete_member, add_member, change_pivots, change_pivots, change_kind, copy_evidence, copy_evidence),
     *(random_hub, random_hub, merge_groups, merge_groups, into_rigid, change_bodies, change_claim, change_graph, change_model),
-    *(change_merge, bad_cycles, remake, empty_list, empty_list, nest_part, change_vectors, change_vectors),
+    *(change_merge, bad_cycles, remake, empty_list, empty_list, change_vectors, change_vectors),
     *(change_frames, change_frames, change_frames),
     *(change_intrinsics, change_intrinsics, change_intrinsics, change_intrinsics),
-    *(into_factors, change_factor, change_factor, change_shifts, change_shifts),
+    *(change_absent, change_absent),
     *(change_stresses, change_stresses),
 )
 
 
 # Lists that are increasing wherever they stand; `rows` and `cols` are pivots in other places.
-INCREASING = ("edges", "bodies", "split", "freed", "plus", "minus", "absent", "shifts", "displacements")
+INCREASING = ("edges", "bodies", "split", "freed", "plus", "minus", "absent", "displacements")
 
 
 def repair(document, rng):

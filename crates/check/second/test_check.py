@@ -22,7 +22,6 @@ import check  # noqa: E402
 import cores  # noqa: E402
 import elimination  # noqa: E402
 import graphs  # noqa: E402
-import grow  # noqa: E402
 import make  # noqa: E402
 import matrices  # noqa: E402
 import notation  # noqa: E402
@@ -1465,17 +1464,6 @@ class Comparison(unittest.TestCase):
         self.assertEqual(out.getvalue(), "")
         self.assertGreater(comparison.count["accepted"], 10)
         self.assertGreater(comparison.count["texts"] - comparison.count["accepted"], 50)
-
-    def test_grown_certificates(self):
-        rng = random.Random(4)
-        with open(os.path.join(HERE, "..", "tests", "solutions", "two.json"), encoding="utf-8") as file:
-            base = json.load(file)
-        for document, known in ((grow.nested_parts(rng), 1), (grow.grown_from(base, rng), 2)):
-            done = check.check(json.dumps(document).encode())
-            self.assertEqual(done.claim["solutions"]["at_most"], known)
-            self.assertIsNone(grow.untrue(document, known))
-            self.assertIn("there are 3 solutions", grow.untrue(document, 3))
-        self.assertGreaterEqual(grow.nesting(grow.nested_parts(rng)["solutions"]), 2)
 
     def test_a_second_brute_force(self):
         """From the formula of the paper: a triangle, the 4-cycle, and a graph with two solutions."""
