@@ -66,7 +66,8 @@ fn components_say_that_they_are_not_unique() {
 /// behind it.
 #[test]
 fn components_have_the_hint_that_they_have_alone() {
-    let graph = viewcert::graph::graph6::decode(b"U??_?CA?W?O_cAKHS?AO???O?GS?OOC?b??@IK??").unwrap();
+    let graph =
+        viewcert::graph::graph6::decode(b"U??_?CA?W?O_cAKHS?AO???O?GS?OOC?b??@IK??").unwrap();
     let pairs = |name: &str| -> String {
         let pairs = graph.edges().iter();
         pairs

@@ -1167,7 +1167,11 @@ fn u5_and_u6_stresses() {
         .remove("stresses");
     let wanted = "solutions.rounds[0].merges[0]: `stressed` in a round without `stresses`";
     assert!(reason(&value).starts_with(wanted), "{}", reason(&value));
-    refused("rounds", &[("M/0", other)], "M[0]: `stressed` in a round without `stresses`");
+    refused(
+        "rounds",
+        &[("M/0", other)],
+        "M[0]: `stressed` in a round without `stresses`",
+    );
 }
 
 #[test]
