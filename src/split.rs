@@ -9,7 +9,7 @@ use viewcert::at_cameras::finished::held;
 use viewcert_advice::split::{self, Free};
 use viewcert_ask::read_model;
 use viewcert_audit::softness::softness;
-use viewcert_formats::error::Problem;
+use viewcert_formats::error::Kind;
 use viewcert_formats::{ReadOptions, read_graphs};
 use viewcert_report::counted;
 use viewcert_report::split::SplitReport;
@@ -56,7 +56,7 @@ fn taken_apart(session: &Session, arguments: &SplitArguments) -> Result<u8> {
         Err(error) if !path.is_dir() => return Err(error),
         // A model without points, and a folder that is none, are refused as they are everywhere.
         other => match read_graphs(path, &ReadOptions::default()).next() {
-            Some(Err(error)) if !matches!(error.problem, Problem::Model) => {
+            Some(Err(error)) if error.problem.kind != Kind::Model => {
                 return Err(error.into());
             }
             _ => other?,

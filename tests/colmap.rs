@@ -1054,17 +1054,11 @@ fn models_and_files_of_tracks() {
         // Nobody takes them for pairs.
         refused(path, &[], &["--tracks"]);
     }
-    // Images without names, as they are called in points3D.
+    // A model has its images.
     let alone = folder.path().join("points3D.bin");
     fs::copy(binary.join("points3D.bin"), &alone).unwrap();
-    let line = json_of(&alone, &["--tracks", "--components"]);
-    assert_eq!(line["components"][0]["labels"], json!(["1", "2", "3"]));
-    assert!(
-        notes(&line)[0].starts_with("images.bin is not beside it"),
-        "{line}"
-    );
+    refused(&alone, &["--tracks"], &["images.bin: cannot be read"]);
     let bytes = fs::read(&alone).unwrap();
-    assert_eq!(line_of_input(&bytes)["tracks"]["points"], 3);
     assert_eq!(line_of_input(bal().as_bytes())["tracks"]["points"], 3);
     // And what is broken is said, with its place.
     let bad = folder.path().join("bad");

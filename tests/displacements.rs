@@ -243,7 +243,6 @@ fn what_is_supposed_is_reported() {
     assert_eq!(run.code, 0, "{}", run.err);
     for wanted in [
         "known       displacements between 4 cameras in 2 groups",
-        "1 line says again what another one says, and counts once",
         "condition   displacements are vectors in the frame of the directions",
         "verdict     solvable: the cameras are unique (proved)",
         "rank        9 of 9 (proved)",

@@ -19,8 +19,8 @@ use viewcert::intrinsics::Metric;
 use viewcert_advice::contradictions::contradictions;
 use viewcert_advice::export::shell;
 use viewcert_advice::{Advice, Request, Shapes, Tracks, foreseen};
-use viewcert_formats::colmap::{Database, DatabaseError, is_database};
-use viewcert_formats::error::{Problem, ReadError};
+use viewcert_formats::colmap::{Database, is_database};
+use viewcert_formats::error::{Kind, Problem, ReadError};
 use viewcert_formats::{
     NamedGraph, ReadOptions, intrinsics, open_database, read_graphs, with_rigs,
 };
@@ -144,7 +144,11 @@ fn source(
         }
         Err(ReadError {
             file,
-            problem: ref problem @ Problem::Holds(ref inside),
+            problem:
+                ref problem @ Problem {
+                    kind: Kind::Holds(ref inside),
+                    ..
+                },
             ..
         }) => {
             let is_base = |path: &&String| is_database(Path::new(path));
@@ -226,12 +230,8 @@ fn read_tracks(
     database.rest()?;
     match tracks {
         Ok(tracks) => Ok(Ok(tracks)),
-        Err(error) => match &error.problem {
-            Problem::Database(why) if matches!(**why, DatabaseError::NoLists(_)) => {
-                Ok(Err(why.to_string()))
-            }
-            _ => Err(error.into()),
-        },
+        Err(error) if error.problem.kind == Kind::NoLists => Ok(Err(error.problem.to_string())),
+        Err(error) => Err(error.into()),
     }
 }
 

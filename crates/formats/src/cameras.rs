@@ -9,7 +9,7 @@ use std::io::Read;
 use std::path::Path;
 
 use crate::NamedGraph;
-use crate::colmap::{self, DatabaseError};
+use crate::colmap;
 use crate::edge_list::fields::{Field, integer};
 use crate::edge_list::refusal::shown;
 use crate::edge_list::{BYTE_ORDER_MARK, text};
@@ -78,7 +78,7 @@ pub(crate) fn read_file<T>(
     let found = if path == Path::new("-") {
         read(&mut std::io::stdin().lock())
     } else {
-        let file = File::open(path).map_err(|error| Place::Input.fault(error.into()));
+        let file = File::open(path).map_err(|error| Problem::from(error).into());
         file.and_then(|mut file| read(&mut file))
     };
     let mut found = found.map_err(|fault| fault.in_file(&name))?;
@@ -96,13 +96,13 @@ pub(crate) fn for_each_line(
 ) -> Result<(), Fault> {
     let mut bytes = Vec::new();
     let read = input.read_to_end(&mut bytes);
-    read.map_err(|error| Place::Input.fault(error.into()))?;
+    read.map_err(Problem::from)?;
     let bytes = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(&bytes);
     if let Some(problem) = own_files::known(&bytes[..bytes.len().min(SAMPLE)]) {
-        return Err(Place::Input.fault(problem));
+        return Err(problem.into());
     }
     if bytes.starts_with(colmap::MAGIC) {
-        return Err(Place::Input.fault(DatabaseError::NoFile.into()));
+        return Err(colmap::error::no_file().into());
     }
     let cameras = Cameras::new(graph);
     for (number, line) in (1..).zip(bytes.split(|&byte| byte == b'\n')) {

@@ -1,12 +1,11 @@
 //! Why an input is not a viewing graph: where, what, and what to do about it.
 
+use std::borrow::Cow;
 use std::fmt;
+use std::io::ErrorKind;
 
-use crate::colmap::DatabaseError;
-use crate::edge_list::refusal::Refusal;
 use crate::inflate::{Damaged, Inflated};
-use crate::sparse6::Sparse6Error;
-use viewcert::graph::graph6::Graph6Error;
+use viewcert::wording::counted;
 
 /// An input that was refused, ready to be shown: `file:line: problem; what to do`.
 #[derive(Debug, thiserror::Error)]
@@ -23,10 +22,8 @@ pub struct ReadError {
 impl ReadError {
     /// What the input is called: its path, and of a file with a graph on every line the line too.
     pub fn input(&self) -> String {
-        match (&self.problem, &self.place) {
-            (Problem::Graph6(_) | Problem::Sparse6(_), Place::Line(line)) => {
-                format!("{}:{line}", self.file)
-            }
+        match (&self.problem.kind, &self.place) {
+            (Kind::Line | Kind::LineSize, Place::Line(line)) => format!("{}:{line}", self.file),
             _ => self.file.clone(),
         }
     }
@@ -48,6 +45,13 @@ impl Fault {
             place: self.place,
             problem: self.problem,
         }
+    }
+}
+
+/// Something wrong with the input as a whole.
+impl From<Problem> for Fault {
+    fn from(problem: Problem) -> Self {
+        Place::Input.fault(problem)
     }
 }
 
@@ -81,133 +85,68 @@ impl fmt::Display for Place {
     }
 }
 
-/// What is wrong with an input. Rows and columns of matrices count from 1.
-#[derive(Debug, thiserror::Error)]
-pub enum Problem {
-    /// The operating system refuses the file.
-    #[error("cannot be read: {0}")]
-    Unreadable(#[source] std::io::Error),
-    /// A file of tracks where pairs are read.
-    #[error("this is {0}")]
-    Tracks(&'static str),
-    /// What only one reader refuses, in its words.
-    #[error("{}", .0.what)]
-    Refused(Refusal),
-    /// Compressed data that end too early or contradict their checksum.
-    #[error("the compressed data are damaged: {0}")]
-    Compressed(#[source] std::io::Error),
-    /// Compressed data that are much larger than they look.
-    #[error(transparent)]
-    Inflated(#[from] Inflated),
-    /// No nodes at all.
-    #[error("the graph is empty")]
-    NoNodes,
-    /// More nodes than a graph can hold.
-    #[error("the graph has more than 4294967295 nodes")]
-    TooManyNodes,
-    /// More pairs than the program numbers.
-    #[error("the graph has more than 2147483647 pairs")]
-    TooManyPairs,
-    /// A number of nodes that few pairs go with.
-    #[error("{nodes} nodes and {pairs} pairs: more than {limit} nodes without pairs")]
-    TooManyIsolated {
-        /// How many nodes.
-        nodes: u64,
-        /// How many pairs.
-        pairs: usize,
-        /// How many nodes without pairs are allowed.
-        limit: u64,
-    },
-    /// A pair of a camera with itself.
-    #[error("camera {0} is paired with itself")]
-    SelfLoop(String),
-    /// Bytes that are no UTF-8.
-    #[error("this is no UTF-8 text")]
-    NotUtf8,
-    /// A zero byte, which no text has.
-    #[error("this is no text: it has a NUL byte")]
-    Nul,
-    /// A carriage return that is not the end of a line.
-    #[error("there is a carriage return within the line")]
-    CarriageReturn,
-    /// Another control character.
-    #[error("this is no plain text: it has the control character {0:#04x}")]
-    Control(u8),
-    /// U+FEFF somewhere else than at the start.
-    #[error("there is a byte order mark (U+FEFF) within the text")]
-    InnerMark,
-    /// A comma with nothing on one side of it.
-    #[error("there is an empty field")]
-    EmptyField,
-    /// A quote where none belongs; what is wrong with it.
-    #[error("a quote (\") {0}")]
-    Quote(&'static str),
-    /// A line that contradicts all earlier ones.
-    #[error("the lines before are {format}, and this one is not: {why}")]
-    Unlike {
-        /// What the others are.
-        format: &'static str,
-        /// Why this one is not.
-        why: Box<Problem>,
-    },
-    /// A line that no machine holds.
-    #[error("the line is longer than {limit} bytes")]
-    LineTooLarge {
-        /// The longest line that is read.
-        limit: u64,
-    },
-    /// A line that is not graph6.
-    #[error(transparent)]
-    Graph6(#[from] Graph6Error),
-    /// A line that is not sparse6.
-    #[error(transparent)]
-    Sparse6(#[from] Sparse6Error),
-    /// The file ends before what it promises.
-    #[error("the file is truncated: {0}")]
-    Truncated(String),
-    /// The file contradicts itself or its format.
-    #[error("the file is corrupt: {0}")]
-    Corrupt(String),
-    /// A database that gives no graph.
-    #[error(transparent)]
-    Database(Box<DatabaseError>),
-    /// A folder, where nobody has asked for tracks.
-    #[error("this is a folder with a model of COLMAP: cameras, images and points")]
-    Model,
-    /// Cameras, and no point that they see.
-    #[error(
-        "this is {what} with {} and no points: it says where they are, and not what they see",
-        viewcert::wording::counted(*.cameras, "camera")
-    )]
-    NoPoints {
-        /// What it is.
-        what: &'static str,
-        /// What to do about it.
-        advice: &'static str,
-        /// How many cameras.
-        cameras: usize,
-    },
-    /// A folder that is no model, and holds models or databases.
-    #[error("this is a folder that holds {}", .0.join(", "))]
-    Holds(Vec<String>),
-    /// Something wrong with another file than the one that was named.
-    #[error("{part}: {problem}")]
-    Within {
-        /// The other file, and the place in it.
-        part: String,
-        /// What is wrong there.
-        problem: Box<Problem>,
-    },
+/// What is wrong with an input, and what to do about it. Rows and columns of matrices count from 1.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{what}")]
+pub struct Problem {
+    pub(super) what: String,
+    remedy: Cow<'static, str>,
+    /// What whoever handles it may ask.
+    pub kind: Kind,
 }
+
+/// Kinds of problems, as far as anything is done about them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// The form of a text, which may be that of another format.
+    Form,
+    /// One graph of many is none, and the next may be one.
+    Line,
+    /// The same, and nothing is wrong but the size.
+    LineSize,
+    /// Nothing is wrong but the size.
+    Size,
+    /// The file ends before what it promises.
+    Truncated,
+    /// There are no nodes.
+    Empty,
+    /// There are so many cameras, and no point that they see.
+    NoPoints(usize),
+    /// A file of tracks where pairs are read.
+    Tracks,
+    /// A folder with a model of COLMAP where pairs are read.
+    Model,
+    /// A folder that is no model, and holds these models and databases.
+    Holds(Box<[String]>),
+    /// A database whose lists of matches are gone.
+    NoLists,
+    /// A database whose keypoints are damaged.
+    Keypoints,
+    /// Anything else.
+    Other,
+}
+
+const TRACKS: &str =
+    "it holds tracks, not pairs of images: --tracks decides the graph of its cameras and points";
 
 impl Problem {
     /// What was seen, and what to do about it.
-    pub(super) fn new(what: impl Into<String>, remedy: impl Into<String>) -> Self {
-        Self::Refused(Refusal::new(what, remedy))
+    pub(super) fn of(
+        kind: Kind,
+        what: impl Into<String>,
+        remedy: impl Into<Cow<'static, str>>,
+    ) -> Self {
+        let (what, remedy) = (what.into(), remedy.into());
+        Self { what, remedy, kind }
+    }
+
+    /// The form of a text.
+    pub(super) fn new(what: impl Into<String>, remedy: impl Into<Cow<'static, str>>) -> Self {
+        Self::of(Kind::Form, what, remedy)
     }
 
     /// Data of another kind, which is known by name.
-    pub(super) fn foreign(what: &str, remedy: &str) -> Self {
+    pub(super) fn foreign(what: &str, remedy: impl Into<Cow<'static, str>>) -> Self {
         Self::new(format!("this is {what}, which is not read here"), remedy)
     }
 
@@ -216,95 +155,165 @@ impl Problem {
         Self::new(format!("{option}: {why}"), "leave it out")
     }
 
-    /// What whoever gave the input can do about it.
-    pub fn remedy(&self) -> &str {
-        match self {
-            Self::Refused(refusal) => &refusal.remedy,
-            Self::Unreadable(error) if error.kind() == std::io::ErrorKind::IsADirectory => {
+    /// The operating system refuses the file.
+    pub(super) fn unreadable(error: &std::io::Error) -> Self {
+        let remedy = match error.kind() {
+            ErrorKind::IsADirectory => {
                 "name the files in it; a folder is read as a model of COLMAP alone, with --tracks"
             }
-            Self::Unreadable(_) => "check its path and permissions",
-            Self::NoPoints { advice, .. } => advice,
-            Self::Compressed(_) => "copy the file again, and test it (`gzip -t`)",
-            Self::Inflated(_) => "if you trust it, unpack it first (`gunzip`)",
-            Self::NoNodes => "give at least one pair of cameras",
-            Self::TooManyNodes | Self::TooManyPairs => "split it into its connected components",
-            Self::TooManyIsolated { .. } => "leave out what has no pairs",
-            Self::SelfLoop(_) => {
-                "remove the pair (or the line, if it holds counts); --skip-loops leaves such pairs out"
+            _ => "check its path and permissions",
+        };
+        Self::of(Kind::Other, format!("cannot be read: {error}"), remedy)
+    }
+
+    /// The file ends before what it promises.
+    pub(super) fn truncated(what: impl fmt::Display) -> Self {
+        let what = format!("the file is truncated: {what}");
+        Self::of(Kind::Truncated, what, "copy or write the file again")
+    }
+
+    /// The file contradicts itself or its format.
+    pub(super) fn corrupt(what: impl fmt::Display) -> Self {
+        let what = format!("the file is corrupt: {what}");
+        Self::of(Kind::Other, what, "copy or write the file again")
+    }
+
+    pub(super) fn no_nodes() -> Self {
+        Self::of(
+            Kind::Empty,
+            "the graph is empty",
+            "give at least one pair of cameras",
+        )
+    }
+
+    pub(super) fn too_many_nodes() -> Self {
+        let what = "the graph has more than 4294967295 nodes";
+        Self::of(Kind::Size, what, "split it into its connected components")
+    }
+
+    pub(super) fn too_many_pairs() -> Self {
+        let what = "the graph has more than 2147483647 pairs";
+        Self::of(Kind::Size, what, "split it into its connected components")
+    }
+
+    /// A pair of a camera with itself.
+    pub(super) fn self_loop(label: &str) -> Self {
+        Self::new(
+            format!("camera {label} is paired with itself"),
+            "remove the pair (or the line, if it holds counts); --skip-loops leaves such pairs out",
+        )
+    }
+
+    pub(super) fn not_utf8() -> Self {
+        Self::of(
+            Kind::Other,
+            "this is no UTF-8 text",
+            "save it as UTF-8 with line feeds",
+        )
+    }
+
+    /// A character that no text has, which the line may not hold.
+    pub(super) fn control(bytes: &[u8], byte: u8) -> Self {
+        let formats =
+            "give an edge list, graph6, sparse6, MatrixMarket or a MATLAB file (save -v7)";
+        let (what, remedy) = match byte {
+            _ if byte == 0 || bytes.contains(&0) => {
+                ("this is no text: it has a NUL byte".to_owned(), formats)
             }
-            Self::NotUtf8 | Self::CarriageReturn => "save it as UTF-8 with line feeds",
-            Self::Nul | Self::Control(_) => {
-                "give an edge list, graph6, sparse6, MatrixMarket or a MATLAB file (save -v7)"
-            }
-            Self::InnerMark => "remove it; files with such marks cannot be joined byte by byte",
-            Self::EmptyField => "put a field on either side of every separator",
-            Self::Quote(_) => "quote whole fields only, and double the quotes within them",
-            Self::Unlike { .. } => "name the format with --format, or mend the line",
-            Self::LineTooLarge { .. } => "write the graph as an edge list or in sparse6",
-            Self::Graph6(_) | Self::Sparse6(_) => {
-                "write the line again, or have it written: `verify convert GRAPH --to graph6` (where other \
-                 formats are read, --format names them)"
-            }
-            Self::Truncated(_) | Self::Corrupt(_) => "copy or write the file again",
-            Self::Database(error) => error.remedy(),
-            Self::Model | Self::Tracks(_) => {
-                "it holds tracks, not pairs of images: --tracks decides the graph of its cameras and points"
-            }
-            Self::Holds(_) => "name one of these (a model is read with --tracks)",
-            Self::Within { problem, .. } => problem.remedy(),
-        }
+            b'\r' => (
+                "there is a carriage return within the line".to_owned(),
+                "save it as UTF-8 with line feeds",
+            ),
+            _ => (
+                format!("this is no plain text: it has the control character {byte:#04x}"),
+                formats,
+            ),
+        };
+        Self::of(Kind::Other, what, remedy)
+    }
+
+    /// A separator with nothing on one side of it.
+    pub(super) fn empty_field() -> Self {
+        let what = "there is an empty field";
+        Self::new(what, "put a field on either side of every separator")
+    }
+
+    /// A quote where none belongs.
+    pub(super) fn quote(what: &str) -> Self {
+        let remedy = "quote whole fields only, and double the quotes within them";
+        Self::new(format!("a quote (\") {what}"), remedy)
+    }
+
+    /// A line that no machine holds.
+    pub(super) fn long_line(limit: u64) -> Self {
+        let what = format!("the line is longer than {limit} bytes");
+        Self::of(
+            Kind::Size,
+            what,
+            "write the graph as an edge list or in sparse6",
+        )
+    }
+
+    /// A file of tracks where pairs are read.
+    pub(super) fn tracks(what: &str) -> Self {
+        Self::of(Kind::Tracks, format!("this is {what}"), TRACKS)
+    }
+
+    /// A folder, where nobody has asked for tracks.
+    pub(super) fn model() -> Self {
+        let what = "this is a folder with a model of COLMAP: cameras, images and points";
+        Self::of(Kind::Model, what, TRACKS)
+    }
+
+    /// Cameras, and no point that they see.
+    pub(super) fn no_points(what: &str, advice: &'static str, cameras: usize) -> Self {
+        let with = counted(cameras, "camera");
+        let why = "it says where they are, and not what they see";
+        let what = format!("this is {what} with {with} and no points: {why}");
+        Self::of(Kind::NoPoints(cameras), what, advice)
+    }
+
+    /// The same in another file than the one that was named.
+    pub(super) fn within(self, part: &str) -> Self {
+        let what = format!("{part}: {}", self.what);
+        Self { what, ..self }
+    }
+
+    /// What whoever gave the input can do about it.
+    pub fn remedy(&self) -> &str {
+        &self.remedy
     }
 
     /// Whether it is refused where pairs are read since it holds tracks.
     pub fn holds_tracks(&self) -> bool {
-        matches!(self, Self::Model | Self::Tracks(_))
-    }
-
-    /// Whether a text is refused for its form, which may be that of another format.
-    pub(super) fn is_grammar(&self) -> bool {
-        matches!(
-            self,
-            Self::Refused(_) | Self::EmptyField | Self::Quote(_) | Self::SelfLoop(_)
-        )
+        matches!(self.kind, Kind::Model | Kind::Tracks)
     }
 
     /// Whether nothing is wrong with the input but its size.
     pub fn is_size(&self) -> bool {
-        match self {
-            Self::Inflated(_)
-            | Self::TooManyNodes
-            | Self::TooManyPairs
-            | Self::TooManyIsolated { .. }
-            | Self::LineTooLarge { .. }
-            | Self::Sparse6(Sparse6Error::TooLarge { .. }) => true,
-            Self::Unlike { why, .. } => why.is_size(),
-            Self::Within { problem, .. } => problem.is_size(),
-            _ => false,
-        }
-    }
-}
-
-impl From<Refusal> for Problem {
-    fn from(refusal: Refusal) -> Self {
-        Self::Refused(refusal)
-    }
-}
-
-impl From<DatabaseError> for Problem {
-    fn from(error: DatabaseError) -> Self {
-        Self::Database(Box::new(error))
+        matches!(self.kind, Kind::Size | Kind::LineSize)
     }
 }
 
 impl From<std::io::Error> for Problem {
     fn from(error: std::io::Error) -> Self {
         match error.downcast::<Inflated>() {
-            Ok(inflated) => Self::Inflated(inflated),
+            Ok(inflated) => inflated.into(),
             Err(error) => match error.downcast::<Damaged>() {
-                Ok(Damaged(error)) => Self::Compressed(error),
-                Err(error) => Self::Unreadable(error),
+                Ok(Damaged(error)) => Self::of(
+                    Kind::Other,
+                    format!("the compressed data are damaged: {error}"),
+                    "copy the file again, and test it (`gzip -t`)",
+                ),
+                Err(error) => Self::unreadable(&error),
             },
         }
+    }
+}
+
+impl From<Inflated> for Problem {
+    fn from(inflated: Inflated) -> Self {
+        let remedy = "if you trust it, unpack it first (`gunzip`)";
+        Self::of(Kind::Size, inflated.to_string(), remedy)
     }
 }

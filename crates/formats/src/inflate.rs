@@ -55,62 +55,32 @@ impl Inflated {
 #[error(transparent)]
 pub(super) struct Damaged(pub(super) Error);
 
-/// What has been read of a file, and whether that failed.
-#[derive(Default)]
-struct Progress {
-    read: Cell<u64>,
-    failed: Cell<bool>,
-}
-
 /// Counts what is read.
-struct Counter<R> {
-    input: R,
-    progress: Rc<Progress>,
-}
+struct Counter(Box<dyn Read>, Rc<Cell<u64>>);
 
-impl<R: Read> Read for Counter<R> {
+impl Read for Counter {
     fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
-        let got = self.input.read(buffer);
-        match &got {
-            Ok(got) => {
-                let read = &self.progress.read;
-                read.set(read.get() + *got as u64);
-            }
-            Err(error) if error.kind() == ErrorKind::Interrupted => {}
-            Err(_) => self.progress.failed.set(true),
-        }
-        got
+        let got = self.0.read(buffer)?;
+        self.1.set(self.1.get() + got as u64);
+        Ok(got)
     }
 }
 
-/// The unpacked bytes of a file of one or more members. Its errors are [`Inflated`] and
-/// [`Damaged`], or those of the file.
+/// The unpacked bytes of a file of one or more members. Its errors are [`Inflated`] and [`Damaged`].
 pub(super) struct Inflater {
-    input: MultiGzDecoder<Counter<Box<dyn Read>>>,
-    progress: Rc<Progress>,
+    input: MultiGzDecoder<Counter>,
+    read: Rc<Cell<u64>>,
     inflated: u64,
 }
 
 impl Inflater {
     pub(super) fn new(input: impl Read + 'static) -> Self {
-        let progress = Rc::new(Progress::default());
-        let input = Counter {
-            input: Box::new(input) as Box<dyn Read>,
-            progress: Rc::clone(&progress),
-        };
+        let read = Rc::default();
+        let input = Counter(Box::new(input), Rc::clone(&read));
         Self {
             input: MultiGzDecoder::new(input),
-            progress,
+            read,
             inflated: 0,
-        }
-    }
-
-    /// An error that is not one of the file.
-    fn damaged(&self, error: Error) -> Error {
-        match error.kind() {
-            _ if self.progress.failed.get() => error,
-            ErrorKind::Interrupted => error,
-            kind => Error::new(kind, Damaged(error)),
         }
     }
 }
@@ -120,9 +90,12 @@ impl Read for Inflater {
         let got = self
             .input
             .read(buffer)
-            .map_err(|error| self.damaged(error))?;
+            .map_err(|error| match error.kind() {
+                ErrorKind::Interrupted => error,
+                kind => Error::new(kind, Damaged(error)),
+            })?;
         self.inflated += got as u64;
-        Inflated::check(self.inflated, self.progress.read.get()).map_err(Error::other)?;
+        Inflated::check(self.inflated, self.read.get()).map_err(Error::other)?;
         Ok(got)
     }
 }

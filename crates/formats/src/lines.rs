@@ -1,10 +1,12 @@
 //! Files with a graph a line: graph6 and sparse6.
 
+use std::fmt::Display;
 use std::io::{BufRead, BufReader, Read};
 
 use crate::edge_list::BYTE_ORDER_MARK;
-use crate::error::{Place, Problem, ReadError};
-use crate::{NamedGraph, ReadAs, sparse6};
+use crate::error::{Fault, Kind, Place, Problem, ReadError};
+use crate::sparse6::{self, Sparse6Error};
+use crate::{NamedGraph, ReadAs};
 use viewcert::graph::{Graph, Labels, graph6};
 
 /// The longest line that is read: graph6 of about 113,000 nodes.
@@ -25,7 +27,7 @@ impl Encoding {
         }
     }
 
-    fn header(self) -> &'static str {
+    pub(super) fn header(self) -> &'static str {
         match self {
             Self::Graph6 => graph6::HEADER,
             Self::Sparse6 => sparse6::HEADER,
@@ -46,8 +48,6 @@ pub(super) struct Lines<R> {
     seen: bool,
     /// Nothing comes any more.
     done: bool,
-    /// The graph of the line before, for what refers to it.
-    previous: Option<Graph>,
 }
 
 impl<R: Read> Lines<R> {
@@ -60,12 +60,11 @@ impl<R: Read> Lines<R> {
             line: 0,
             seen: false,
             done: false,
-            previous: None,
         }
     }
 
     /// The next line that is not blank, without its end.
-    fn next_line(&mut self, line: &mut Vec<u8>) -> Result<bool, Problem> {
+    fn next_line(&mut self, line: &mut Vec<u8>) -> Result<bool, Fault> {
         loop {
             line.clear();
             self.line += 1;
@@ -73,12 +72,13 @@ impl<R: Read> Lines<R> {
                 .input
                 .by_ref()
                 .take(LINE_LIMIT + 1)
-                .read_until(b'\n', line)?;
+                .read_until(b'\n', line)
+                .map_err(Problem::from)?;
             if got == 0 {
                 return Ok(false);
             }
             if got as u64 > LINE_LIMIT {
-                return Err(Problem::LineTooLarge { limit: LINE_LIMIT });
+                return Err(Place::Line(self.line).fault(Problem::long_line(LINE_LIMIT)));
             }
             let mut text = trimmed(line);
             if self.line == 1 {
@@ -96,20 +96,24 @@ impl<R: Read> Lines<R> {
         }
     }
 
-    fn graph(&mut self, line: &[u8]) -> Result<(Graph, Vec<String>), Problem> {
+    fn graph(&self, line: &[u8]) -> Result<(Graph, Vec<String>), Problem> {
+        let remedy = "write the line again, or have it written: `verify convert GRAPH --to graph6` (where other \
+                      formats are read, --format names them)";
+        let none = |error: &dyn Display, kind| Problem::of(kind, error.to_string(), remedy);
         let (graph, merged) = match self.encoding {
-            Encoding::Graph6 => (graph6::decode(line)?, 0),
-            Encoding::Sparse6 => {
-                let previous = self.previous.take();
-                let (graph, merged) = sparse6::decode(line, previous.as_ref())?;
-                self.previous = Some(graph.clone());
-                (graph, merged)
-            }
+            Encoding::Graph6 => (
+                graph6::decode(line).map_err(|error| none(&error, Kind::Line))?,
+                0,
+            ),
+            Encoding::Sparse6 => sparse6::decode(line).map_err(|error| match error {
+                Sparse6Error::TooLarge { .. } => none(&error, Kind::LineSize),
+                _ => none(&error, Kind::Line),
+            })?,
         };
-        if graph.nodes() == 0 {
-            return Err(Problem::NoNodes);
+        match graph.nodes() {
+            0 => Err(Problem::no_nodes()),
+            _ => Ok((graph, Vec::from_iter(crate::merged(merged)))),
         }
-        Ok((graph, Vec::from_iter(crate::merged(merged))))
     }
 }
 
@@ -131,44 +135,45 @@ impl<R: Read> Iterator for Lines<R> {
             return None;
         }
         let mut line = Vec::new();
-        let fault = match self.next_line(&mut line) {
+        let graph = match self.next_line(&mut line) {
             Ok(false) => {
                 self.done = true;
                 return None;
             }
-            Ok(true) => match self.graph(&line) {
-                Ok((graph, notes)) => {
-                    self.seen = true;
-                    let name = format!("{}:{}", self.name, self.line);
-                    let graph = NamedGraph::new(name, graph, Labels::Numbers { first: 0 });
-                    let read = ReadAs::new(self.encoding.name());
-                    return Some(Ok(NamedGraph {
-                        read,
-                        notes,
-                        ..graph
-                    }));
-                }
+            Ok(true) => self.graph(&line).map_err(|problem| {
                 // A graph without nodes is a graph of the format.
-                Err(problem) if self.guessed && !matches!(problem, Problem::NoNodes) => {
-                    self.done = true;
-                    let unlike = |why| Problem::Unlike {
-                        format: self.encoding.name(),
-                        why: Box::new(why),
-                    };
-                    Place::Line(self.line).fault(if self.seen { unlike(problem) } else { problem })
-                }
-                Err(problem) => Place::Line(self.line).fault(problem),
-            },
-            Err(problem) => {
-                self.done = true;
-                let place = if problem.is_size() && !matches!(problem, Problem::Inflated(_)) {
-                    Place::Line(self.line)
-                } else {
-                    Place::Input
+                self.done = self.guessed && problem.kind != Kind::Empty;
+                let problem = match self.done && self.seen {
+                    true => {
+                        let format = self.encoding.name();
+                        let why = problem.what;
+                        let what =
+                            format!("the lines before are {format}, and this one is not: {why}");
+                        let remedy = "name the format with --format, or mend the line";
+                        Problem::of(problem.kind, what, remedy)
+                    }
+                    false => problem,
                 };
-                place.fault(problem)
+                Place::Line(self.line).fault(problem)
+            }),
+            Err(fault) => {
+                self.done = true;
+                Err(fault)
             }
         };
-        Some(Err(fault.in_file(&self.name)))
+        Some(match graph {
+            Ok((graph, notes)) => {
+                self.seen = true;
+                let name = format!("{}:{}", self.name, self.line);
+                let read = ReadAs::new(self.encoding.name());
+                let graph = NamedGraph::new(name, graph, Labels::Numbers { first: 0 });
+                Ok(NamedGraph {
+                    read,
+                    notes,
+                    ..graph
+                })
+            }
+            Err(fault) => Err(fault.in_file(&self.name)),
+        })
     }
 }

@@ -10,7 +10,6 @@
 use std::io::{BufRead, BufReader, Read};
 
 use crate::edge_list::columns::ListOptions;
-use crate::edge_list::fields::is_number;
 use crate::edge_list::text;
 use crate::error::{Fault, Place, Problem};
 use crate::matrix::{self, Entry};
@@ -31,16 +30,10 @@ pub(super) fn is_matrix_market(head: &[u8]) -> bool {
 /// What the first line says of the entries.
 #[derive(Clone, Copy)]
 struct Kind {
-    values: Values,
+    /// Whether values follow the row and the column, and whether they are integers.
+    values: Option<bool>,
     /// One triangle says what is in the other.
     symmetric: bool,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Values {
-    Pattern,
-    Integer,
-    Real,
 }
 
 /// The graph of an adjacency matrix, and notes about what was merged or ignored.
@@ -65,15 +58,14 @@ pub(super) fn read_with(input: impl Read, options: &ListOptions) -> Result<Parse
             .by_ref()
             .take(LINE_LIMIT + 1)
             .read_until(b'\n', &mut line)
-            .map_err(|error| Place::Input.fault(error.into()))?;
+            .map_err(Problem::from)?;
         if got == 0 {
             break;
         }
         let taken = file.take(&line);
         taken.map_err(|problem| Place::Line(number).fault(problem))?;
     }
-    file.graph(options)
-        .map_err(|problem| Place::Input.fault(problem))
+    file.graph(options).map_err(Fault::from)
 }
 
 /// What the lines have said so far.
@@ -97,7 +89,7 @@ impl File {
     /// One more line, with its end.
     fn take(&mut self, line: &[u8]) -> Result<(), Problem> {
         if line.len() as u64 > LINE_LIMIT {
-            return Err(Problem::LineTooLarge { limit: LINE_LIMIT });
+            return Err(Problem::long_line(LINE_LIMIT));
         }
         let bytes = line.strip_suffix(b"\n").unwrap_or(line);
         let bytes = bytes.strip_suffix(b"\r").unwrap_or(bytes);
@@ -128,8 +120,7 @@ impl File {
         let column = place(word, size.nodes)?;
         let value = kind.value(words.next())?;
         if !value.is_finite() {
-            let (row, column) = (row + 1, column + 1);
-            return Err(matrix::no_number([row, column], value));
+            return Err(matrix::no_number([row + 1, column + 1], value));
         }
         if words.next().is_some() {
             return Err(said("the entry has too many fields".into()));
@@ -181,13 +172,7 @@ impl Kind {
     fn of_header<'a>(words: impl Iterator<Item = &'a str>) -> Result<Self, Problem> {
         let words: Vec<String> = words.map(str::to_ascii_lowercase).collect();
         let word = |k: usize| words.get(k).map_or("", |word| &**word);
-        let refused = |what: &str, k: usize| {
-            let word = word(k);
-            Err(said(format!(
-                "{what} `{word}` {} not read here",
-                if k == 3 { "are" } else { "is" }
-            )))
-        };
+        let refused = |what: &str| Err(said(format!("{what} not read here")));
         if word(0) != HEADER.to_ascii_lowercase() || word(1) != "matrix" {
             return Err(said(format!("a {} {} is not a matrix", word(0), word(1))));
         }
@@ -197,18 +182,18 @@ impl Kind {
             return Err(Problem::new(what, remedy));
         }
         if word(2) != "coordinate" {
-            return refused("the format", 2);
+            return refused(&format!("the format `{}` is", word(2)));
         }
         let values = match word(3) {
-            "pattern" => Values::Pattern,
-            "integer" | "unsigned-integer" => Values::Integer,
-            "real" | "double" => Values::Real,
-            _ => return refused("entries that are", 3),
+            "pattern" => None,
+            "integer" | "unsigned-integer" => Some(true),
+            "real" | "double" => Some(false),
+            other => return refused(&format!("entries that are `{other}` are")),
         };
         let symmetric = match word(4) {
             "symmetric" => true,
             "general" => false,
-            _ => return refused("a matrix that is", 4),
+            other => return refused(&format!("a matrix that is `{other}` is")),
         };
         Ok(Self { values, symmetric })
     }
@@ -225,7 +210,7 @@ impl Kind {
             return Err(said(what.into()));
         };
         let (Ok(nodes), Ok(_)) = (u32::try_from(rows), u32::try_from(columns)) else {
-            return Err(Problem::TooManyNodes);
+            return Err(Problem::too_many_nodes());
         };
         if rows != columns {
             return Err(matrix::not_square(&format!("{rows} x {columns}")));
@@ -235,25 +220,22 @@ impl Kind {
 
     /// A value; that of a pattern is 1.
     fn value(self, value: Option<&str>) -> Result<f64, Problem> {
-        let word = match (self.values, value) {
-            (Values::Pattern, None) => return Ok(1.0),
-            (Values::Pattern, Some(_)) => {
-                return Err(said(
-                    "the entry has a value, and only the pattern is promised".into(),
-                ));
+        let (integers, word) = match (self.values, value) {
+            (None, None) => return Ok(1.0),
+            (None, Some(_)) => {
+                let what = "the entry has a value, and only the pattern is promised";
+                return Err(said(what.into()));
             }
             (_, None) => return Err(said("the entry has no value".into())),
-            (_, Some(word)) => word,
+            (Some(integers), Some(word)) => (integers, word),
         };
-        let is_named = word.parse::<f64>().is_ok_and(|value| !value.is_finite());
-        let value = match word.parse::<f64>() {
-            Ok(value) if is_named || is_number(word.as_bytes()) => value,
-            _ => return Err(said(format!("`{word}` is no number"))),
-        };
-        if self.values == Values::Integer && value.fract() != 0.0 {
-            return Err(said(format!("`{word}` is no integer")));
+        match word.parse::<f64>() {
+            Ok(value) if integers && value.fract() != 0.0 => {
+                Err(said(format!("`{word}` is no integer")))
+            }
+            Ok(value) => Ok(value),
+            Err(_) => Err(said(format!("`{word}` is no number"))),
         }
-        Ok(value)
     }
 }
 

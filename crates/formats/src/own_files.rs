@@ -64,7 +64,7 @@ pub(super) fn given(head: &[u8]) -> Option<Problem> {
 pub(super) fn known(head: &[u8]) -> Option<Problem> {
     let text = String::from_utf8_lossy(head);
     let text = text.trim_start();
-    let own = |what: &str, advice: &str| {
+    let own = |what: &str, advice: &'static str| {
         let what = format!("this is {what} that this program has written, and it is not read here");
         Some(Problem::new(what, advice))
     };

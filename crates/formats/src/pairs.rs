@@ -3,10 +3,10 @@
 //! In: pairs of integers, or of node numbers with labels. Out: the graph that a file with the same
 //! pairs gives, with the same numbers of nodes and the same notes.
 
-use crate::edge_list::nodes::number_integers;
-use crate::error::{Place, Problem};
+use crate::edge_list::nodes::{graph, number_integers};
+use crate::error::{Fault, Problem};
 use crate::{Matching, NamedGraph, OtherPair, ReadAs, ReadError, merged};
-use viewcert::graph::{Graph, GraphError, Labels};
+use viewcert::graph::{Graph, Labels};
 use viewcert::wording::counted;
 
 /// Most pairs, as in files.
@@ -19,7 +19,7 @@ const MOST: usize = i32::MAX as usize;
 /// No pairs, too many of them, or one of an integer with itself.
 pub fn of_integers(name: &str, mut pairs: Vec<(u32, u32)>) -> Result<NamedGraph, ReadError> {
     if pairs.len() > MOST {
-        return Err(refused(name, Problem::TooManyPairs));
+        return Err(refused(name, Problem::too_many_pairs()));
     }
     let (labels, nodes) = number_integers(&mut pairs, &[]);
     of_nodes(name, nodes as u32, labels, pairs)
@@ -31,12 +31,13 @@ pub fn of_integers(name: &str, mut pairs: Vec<(u32, u32)>) -> Result<NamedGraph,
 /// As there, and more integers than nodes can be numbered.
 pub fn of_long_integers(name: &str, pairs: &[(u64, u64)]) -> Result<NamedGraph, ReadError> {
     if pairs.len() > MOST {
-        return Err(refused(name, Problem::TooManyPairs));
+        return Err(refused(name, Problem::too_many_pairs()));
     }
     let mut values: Vec<u64> = pairs.iter().flat_map(|&(a, b)| [a, b]).collect();
     values.sort_unstable();
     values.dedup();
-    let nodes = u32::try_from(values.len()).map_err(|_| refused(name, Problem::TooManyNodes))?;
+    let nodes =
+        u32::try_from(values.len()).map_err(|_| refused(name, Problem::too_many_nodes()))?;
     let place = |value| values.partition_point(|&other| other < value) as u32;
     let pairs = pairs.iter().map(|&(a, b)| (place(a), place(b))).collect();
     of_nodes(name, nodes, Labels::Integers(values), pairs)
@@ -54,34 +55,20 @@ pub fn of_nodes(
     pairs: Vec<(u32, u32)>,
 ) -> Result<NamedGraph, ReadError> {
     if nodes == 0 {
-        return Err(refused(name, Problem::NoNodes));
+        return Err(refused(name, Problem::no_nodes()));
     }
     if pairs.len() > MOST {
-        return Err(refused(name, Problem::TooManyPairs));
+        return Err(refused(name, Problem::too_many_pairs()));
     }
-    let (graph, again) = Graph::from_pairs(nodes, pairs).map_err(|error| {
-        refused(
-            name,
-            match error {
-                GraphError::SelfLoop(node) => Problem::SelfLoop(labels.label(node).into_owned()),
-                GraphError::OutOfRange { .. } => Problem::Corrupt(error.to_string()),
-            },
-        )
-    })?;
+    let (graph, again) =
+        graph(pairs, (&labels, nodes as usize)).map_err(|why| refused(name, why))?;
     Ok(NamedGraph {
-        name: name.to_owned(),
-        graph,
-        labels,
         read: ReadAs {
             merged: again,
             ..ReadAs::new("pairs in memory")
         },
         notes: merged(again).into_iter().collect(),
-        matching: None,
-        cameras: None,
-        database: None,
-        tracks: None,
-        frames: None,
+        ..NamedGraph::new(name, graph, labels)
     })
 }
 
@@ -128,8 +115,8 @@ pub fn with_inliers(
             counted(few.len() + used.len(), "pair"),
         ));
         let pairs = used.iter().map(|&(pair, _)| pair);
-        found.graph = Graph::new(nodes, pairs)
-            .map_err(|error| refused(name, Problem::Corrupt(error.to_string())))?;
+        found.graph =
+            Graph::new(nodes, pairs).map_err(|error| refused(name, Problem::corrupt(error)))?;
     }
     let other = |((a, b), inliers)| OtherPair {
         images: (a, b),
@@ -147,7 +134,7 @@ pub fn with_inliers(
 }
 
 fn refused(name: &str, problem: Problem) -> ReadError {
-    Place::Input.fault(problem).in_file(name)
+    Fault::from(problem).in_file(name)
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@ use crate::edge_list::table::is_own;
 use crate::error::Problem;
 use crate::inflate::is_gzip;
 use crate::lines::{Encoding, trimmed};
-use crate::tracks::{self, TrackFile};
+use crate::tracks;
 use crate::{colmap, matlab, matrix_market, own_files, sparse6};
 use viewcert::graph::graph6;
 
@@ -56,11 +56,6 @@ pub(super) fn kind(head: &[u8], whole: bool) -> Result<Kind, Problem> {
     if let Some(problem) = binary(head) {
         return Err(problem);
     }
-    if head.contains(&0)
-        && let Some(model) = tracks::kind(head, whole)
-    {
-        return Err(of_tracks(model));
-    }
     let head = head.strip_prefix(BYTE_ORDER_MARK).unwrap_or(head);
     if is_own(head) {
         return Ok(Kind::Text);
@@ -68,14 +63,11 @@ pub(super) fn kind(head: &[u8], whole: bool) -> Result<Kind, Problem> {
     if matrix_market::is_matrix_market(head) {
         return Ok(Kind::MatrixMarket);
     }
-    for (encoding, header) in [
-        (Encoding::Graph6, graph6::HEADER),
-        (Encoding::Sparse6, sparse6::HEADER),
-    ] {
-        if head.starts_with(header.as_bytes()) {
-            let guessed = false;
-            return Ok(Kind::Lines { encoding, guessed });
-        }
+    let encodings = [Encoding::Graph6, Encoding::Sparse6];
+    let named = |encoding: &Encoding| head.starts_with(encoding.header().as_bytes());
+    if let Some(encoding) = encodings.into_iter().find(named) {
+        let guessed = false;
+        return Ok(Kind::Lines { encoding, guessed });
     }
     if let Some(problem) = own_files::known(head)
         .or_else(|| own_files::given(head))
@@ -89,13 +81,12 @@ pub(super) fn kind(head: &[u8], whole: bool) -> Result<Kind, Problem> {
         let encoding = Encoding::Graph6;
         return Ok(Kind::Lines { encoding, guessed });
     }
-    for (encoding, is) in [
-        (Encoding::Graph6, graph6::is_graph6 as fn(&[u8]) -> bool),
-        (Encoding::Sparse6, sparse6::looks_like_sparse6),
-    ] {
-        if every_line(head, whole, is) {
-            return Ok(Kind::Lines { encoding, guessed });
-        }
+    let looks_so = |encoding: &Encoding| match encoding {
+        Encoding::Graph6 => every_line(head, whole, graph6::is_graph6),
+        Encoding::Sparse6 => every_line(head, whole, sparse6::looks_like_sparse6),
+    };
+    if let Some(encoding) = encodings.into_iter().find(looks_so) {
+        return Ok(Kind::Lines { encoding, guessed });
     }
     if let Some(document) = Document::of(head, whole) {
         return Ok(Kind::Document(document));
@@ -148,7 +139,7 @@ fn foreign(what: &'static str, advice: &'static str) -> Problem {
 }
 
 const PAIRS: &str = "write one pair a line: the names of two cameras and nothing else";
-const COLMAP: &str = "it is one file of a COLMAP model: give the folder that holds it, with --tracks, or COLMAP's database";
+pub(super) const COLMAP: &str = "it is one file of a COLMAP model: give the folder that holds it, with --tracks, or COLMAP's database";
 const DIMACS: &str = "write the two nodes of every edge: awk '/^[ea] / { print $2, $3 }' FILE";
 const DIGRAPH6: &str = "forget the directions with nauty's `underlyingg`, which writes graph6";
 const UTF16: &str = "save it as UTF-8 (in Windows: `Save as`, encoding UTF-8)";
@@ -186,14 +177,12 @@ fn known(by_words: bool, is: impl Fn(&'static str) -> bool) -> Option<Problem> {
 
 /// Whether bytes begin with others, of which `\xHH` stands for one.
 fn begins_with(head: &[u8], start: &str) -> bool {
-    let mut escaped = start.split("\\x");
-    let plain = escaped.next().unwrap_or_default().as_bytes();
-    let others = escaped.flat_map(|part| {
-        let (byte, plain) = part.split_at(2);
-        let byte = u8::from_str_radix(byte, 16).expect("two digits");
-        std::iter::once(byte).chain(plain.bytes())
-    });
-    let start: Vec<u8> = plain.iter().copied().chain(others).collect();
+    let mut parts = start.split("\\x");
+    let mut start = parts.next().unwrap_or_default().as_bytes().to_vec();
+    for (byte, plain) in parts.map(|part| part.split_at(2)) {
+        start.push(u8::from_str_radix(byte, 16).expect("two digits"));
+        start.extend_from_slice(plain.as_bytes());
+    }
     head.starts_with(&start)
 }
 
@@ -211,24 +200,15 @@ fn binary(head: &[u8]) -> Option<Problem> {
         let advice = "in Python: viewcert.verify(pickle.load(open('FILE', 'rb'))); a pickle can run anything";
         return Some(foreign("a Python pickle", advice));
     }
-    if !head.contains(&0) {
-        return None;
-    }
     // Text of two bytes a character without a mark: every other byte of its ASCII is zero.
-    let (even, odd): (Vec<u8>, Vec<u8>) = head.chunks_exact(2).map(|two| (two[0], two[1])).unzip();
-    let zero = |bytes: &[u8]| bytes.iter().all(|&b| b == 0);
-    let ascii = |bytes: &[u8]| bytes.iter().all(|&b| b.is_ascii() && b != 0);
-    if head.len() >= 4 && (zero(&even) && ascii(&odd) || zero(&odd) && ascii(&even)) {
-        return Some(foreign("text in UTF-16", UTF16));
-    }
-    None
+    let all = |k: usize, is: fn(&u8) -> bool| head.iter().skip(k).step_by(2).all(is);
+    let is_ascii: fn(&u8) -> bool = |byte| byte.is_ascii() && *byte != 0;
+    let is_wide = |k: usize| all(k, |byte| *byte == 0) && all(1 - k, is_ascii);
+    (head.len() > 3 && (is_wide(0) || is_wide(1))).then(|| foreign("text in UTF-16", UTF16))
 }
 
 /// No name has more words.
 const MOST_WORDS: usize = 8;
-
-const GEXF: &str = "a graph in GEXF";
-const GEXF_ADVICE: &str = networkx!("networkx.read_gexf('FILE')");
 
 /// A text by its first words, whose letters count: names of images begin in any way.
 fn by_first_words(head: &[u8]) -> Option<Problem> {
@@ -237,19 +217,11 @@ fn by_first_words(head: &[u8]) -> Option<Problem> {
     let first: Vec<&str> = text.split_whitespace().take(MOST_WORDS).collect();
     let first = first.join(" ");
     let found = known(true, |words| first.starts_with(words));
-    let tracks = || tracks::by_first_words(head).map(of_tracks);
+    let tracks = || tracks::by_first_words(head).map(|file| Problem::tracks(file.name()));
     found
         .or_else(tracks)
         .or_else(|| kapture(text))
         .or_else(|| adjacency(text))
-}
-
-/// The refusal of a file with tracks, or of a part of a model.
-fn of_tracks(file: TrackFile) -> Problem {
-    match file {
-        TrackFile::Colmap { .. } => foreign(file.name(), COLMAP),
-        _ => Problem::Tracks(file.name()),
-    }
 }
 
 /// Files of kapture but for its lists of pairs, whose columns are named in a comment.
@@ -280,7 +252,7 @@ pub(super) fn likely(head: &[u8], whole: bool) -> Option<Problem> {
         _ => head,
     };
     let text = std::str::from_utf8(text).ok()?;
-    let model = || tracks::kind(head, whole).map(of_tracks);
+    let model = || tracks::kind(head, whole).map(|file| Problem::tracks(file.name()));
     markup(text)
         .or_else(model)
         .or_else(|| encoded(head, whole))
@@ -295,68 +267,59 @@ fn markup(text: &str) -> Option<Problem> {
         return Some(foreign("a web page (HTML)", "download the file itself"));
     }
     if lower.contains("<gexf") {
-        return Some(foreign(GEXF, GEXF_ADVICE));
+        return Some(foreign(
+            "a graph in GEXF",
+            networkx!("networkx.read_gexf('FILE')"),
+        ));
     }
     if start.contains("<chunk") || start.contains(".files/project.zip") {
         let what = "a project or a file of cameras of Metashape without matches";
-        return Some(foreign(
-            what,
-            "export the cameras as Bundler (.out), and give that file with --tracks",
-        ));
+        let advice = "export the cameras as Bundler (.out), and give that file with --tracks";
+        return Some(foreign(what, advice));
     }
     if start.starts_with('<') {
         return Some(foreign("XML", PAIRS));
     }
     let inner = start.strip_prefix(['{', '['])?.trim_start();
     let json = |c: char| "\"{[]}-".contains(c) || c.is_ascii_digit();
-    let is_graph = start.starts_with('{') && start.contains("\"nodes\"");
-    let has = |names: &[&str]| {
-        names
-            .iter()
-            .all(|name| start.contains(&format!("\"{name}\"")))
-    };
-    let edges = ["\"links\"", "\"edges\""]
-        .iter()
-        .any(|name| start.contains(name));
-    match () {
-        () if !inner.starts_with(json) => None,
-        () if has(&["cameras", "shots"]) => Some(foreign(
+    let has = |name: &str| start.contains(&format!("\"{name}\""));
+    let is_graph = start.starts_with('{') && has("nodes") && (has("links") || has("edges"));
+    inner.starts_with(json).then(|| match () {
+        () if has("cameras") && has("shots") => foreign(
             "a reconstruction of OpenSfM or ODM without observations",
             "give the tracks.csv beside it, with --tracks",
-        )),
-        () if has(&["frames", "transform_matrix"]) => Some(foreign(
+        ),
+        () if has("frames") && has("transform_matrix") => foreign(
             "a file of cameras of nerfstudio without matches",
             "give COLMAP's database.db or sparse/0, of which they were made",
-        )),
-        () if is_graph && edges => Some(foreign(
+        ),
+        () if is_graph => foreign(
             "a graph in JSON",
             networkx!("networkx.node_link_graph(json.load(open('FILE')), edges='links')"),
-        )),
-        () => Some(foreign("JSON", PAIRS)),
-    }
+        ),
+        () => foreign("JSON", PAIRS),
+    })
 }
 
 /// Relatives of graph6, and graph6 with other lines in between.
 fn encoded(head: &[u8], whole: bool) -> Option<Problem> {
-    if every_line(
-        head,
-        whole,
-        |line| matches!(line, [b'&', body @ ..] if in_alphabet(body)),
-    ) {
+    let is_directed = |line: &[u8]| matches!(line, [b'&', body @ ..] if in_alphabet(body));
+    if every_line(head, whole, is_directed) {
         return Some(foreign("digraph6 (directed graphs)", DIGRAPH6));
     }
-    let all: Vec<&[u8]> = lines(head, whole).collect();
-    let first = all.first()?;
-    if graph6::is_graph6(first) && all.len() > 1 {
-        return Some(foreign(
-            "graph6 with lines between that are none",
-            "mend or remove those (--format graph6 names them)",
-        ));
-    }
-    sparse6::looks_like_sparse6(first).then(|| {
+    let mut all = lines(head, whole);
+    let first = all.next()?;
+    let is_graph = graph6::is_graph6(first) && all.next().is_some();
+    (is_graph || sparse6::looks_like_sparse6(first)).then(|| {
+        let what = "graph6 with lines between that are none";
+        let what = if is_graph {
+            what
+        } else {
+            "sparse6 with lines between that are none"
+        };
         foreign(
-            "sparse6 with lines between that are none",
-            "mend or remove those (--format sparse6 names them)",
+            what,
+            "mend or remove those (--format graph6 or --format sparse6 names them)",
         )
     })
 }
@@ -375,10 +338,7 @@ fn words(text: &str, whole: bool) -> Option<Problem> {
             .is_some_and(|word| !word.starts_with(['#', '%']))
     };
     let lines: Vec<Vec<&str>> = lines.filter(is_line).collect();
-    let first = lines.first()?;
-    if integer(first[0]).is_some() && first.contains(&"CAMERA") {
-        return Some(foreign("COLMAP's rigs.txt or frames.txt", COLMAP));
-    }
+    lines.first()?;
     let of = |kinds: &[&str]| lines.iter().all(|line| kinds.contains(&line[0]));
     let is_edge = |line: &Vec<&str>| {
         ["e", "a"].contains(&line[0]) && line.get(1).is_some_and(|end| integer(end).is_some())
@@ -386,17 +346,11 @@ fn words(text: &str, whole: bool) -> Option<Problem> {
     if of(&["c", "p", "e", "a", "n", "d", "v", "x"]) && lines.iter().any(is_edge) {
         return Some(foreign("a DIMACS graph", DIMACS));
     }
-    let number = |word: &&str| is_number(word.as_bytes());
-    if whole
-        && lines.len() > 2
-        && lines
-            .iter()
-            .all(|line| line.len() == lines.len() && line.iter().all(number))
-    {
-        return Some(foreign(
-            "a matrix as text",
-            "in Python: viewcert.verify(numpy.loadtxt('FILE')), with delimiter=',' if commas separate",
-        ));
+    let are_numbers = |line: &Vec<&str>| line.iter().all(|word| is_number(word.as_bytes()));
+    let is_row = |line: &Vec<&str>| line.len() == lines.len() && are_numbers(line);
+    if whole && lines.len() > 2 && lines.iter().all(is_row) {
+        let advice = "in Python: viewcert.verify(numpy.loadtxt('FILE')), with delimiter=',' if commas separate";
+        return Some(foreign("a matrix as text", advice));
     }
     are_stars(&lines).then(|| {
         foreign(
@@ -409,17 +363,17 @@ fn words(text: &str, whole: bool) -> Option<Problem> {
 /// Whether lines are numbers in increasing order and of different lengths, as are the first ones, some of
 /// which other lines have.
 fn are_stars(lines: &[Vec<&str>]) -> bool {
-    let numbers: Option<Vec<Vec<u64>>> = lines
+    let numbers = lines
         .iter()
-        .map(|line| line.iter().map(|word| integer(word)).collect())
-        .collect();
-    let Some(lines) = numbers else { return false };
+        .map(|line| line.iter().map(|word| integer(word)).collect());
+    let Some(lines) = numbers.collect::<Option<Vec<Vec<u64>>>>() else {
+        return false;
+    };
     let firsts: HashSet<u64> = lines.iter().map(|line| line[0]).collect();
+    let goes_on = |line: &Vec<u64>| line[1..].iter().any(|other| firsts.contains(other));
     lines.iter().all(|line| line.is_sorted_by(|a, b| a < b))
         && lines.is_sorted_by(|one, next| one[0] < next[0])
         && lines.iter().any(|line| line.len() > 3)
         && lines.iter().any(|line| line.len() != lines[0].len())
-        && lines
-            .iter()
-            .any(|line| line[1..].iter().any(|other| firsts.contains(other)))
+        && lines.iter().any(goes_on)
 }

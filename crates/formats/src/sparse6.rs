@@ -1,14 +1,12 @@
-//! sparse6: a graph with few edges as one line of printable characters, and incremental sparse6.
+//! sparse6: a graph with few edges as one line of printable characters.
 //!
 //! Format by B. D. McKay, `formats.txt` of nauty: a colon, the number of nodes n as in graph6, then
 //! a list of pairs (b, x) of one bit and as many bits as n - 1 has, six bits a character, to which
 //! 63 is added. A node v starts at 0; b = 1 adds one to it; then x > v sets v to x, and any other x
 //! is an edge between x and v. An incremental line begins with a semicolon in the place of the
-//! colon and the number of nodes, and lists the edges in which its graph differs from the previous
-//! one.
+//! colon and the number of nodes, and is refused.
 
 use viewcert::graph::graph6;
-use viewcert::graph::graph6::Graph6Error;
 use viewcert::graph::{Graph, GraphError};
 
 /// The optional header; it stands on the same line as the first graph, or before it.
@@ -35,9 +33,12 @@ pub enum Sparse6Error {
     /// The line ends within the number of nodes.
     #[error("sparse6: the line ends before the number of nodes is complete")]
     NoSize,
-    /// An incremental line without a graph that it could refer to.
-    #[error("sparse6: the line begins with `;`, and there is no graph before it that it changes")]
-    NoPrevious,
+    /// An incremental line.
+    #[error(
+        "sparse6: the line begins with `;` and changes the graph before it, which is not read here: nauty's \
+         `copyg -s` writes whole graphs"
+    )]
+    Incremental,
     /// A pair of a node with itself.
     #[error("sparse6: node {0} is paired with itself")]
     SelfLoop(u32),
@@ -52,8 +53,7 @@ pub enum Sparse6Error {
     },
 }
 
-/// Whether a line has the characters of sparse6 or incremental sparse6 (of which `;` alone changes
-/// nothing).
+/// Whether a line has the characters of sparse6 or incremental sparse6.
 pub fn looks_like_sparse6(line: &[u8]) -> bool {
     let alphabet = |body: &[u8]| body.iter().all(|b| (63..=126).contains(b));
     match line {
@@ -64,58 +64,34 @@ pub fn looks_like_sparse6(line: &[u8]) -> bool {
 }
 
 /// The graph of a line, given without its line end and header, and how many repeated edges were
-/// merged. `previous` is the graph of the line before, which an incremental line changes.
-/// O(length log length).
+/// merged. O(length log length).
 ///
 /// # Errors
 /// The line is not exactly one simple graph.
-pub fn decode(line: &[u8], previous: Option<&Graph>) -> Result<(Graph, usize), Sparse6Error> {
+pub fn decode(line: &[u8]) -> Result<(Graph, usize), Sparse6Error> {
     if let Some(at) = line.iter().skip(1).position(|b| !(63..=126).contains(b)) {
         return Err(Sparse6Error::Character {
             column: at + 2,
             byte: line[at + 1],
         });
     }
-    match line {
-        [b':', body @ ..] => {
-            let (nodes, body) = graph6::size(body).map_err(|error| match error {
-                Graph6Error::Character { column, byte } => Sparse6Error::Character { column, byte },
-                _ => Sparse6Error::NoSize,
-            })?;
-            let too_large = Sparse6Error::TooLarge { nodes };
-            let count = u32::try_from(nodes).map_err(|_| too_large.clone())?;
-            let pairs = pairs(count, body)?;
-            let isolated = ISOLATED_PER_CHARACTER * line.len() as u64;
-            if nodes > isolated + 2 * pairs.len() as u64 {
-                return Err(too_large);
-            }
-            simple(count, pairs)
-        }
-        [b';', body @ ..] => {
-            let previous = previous.ok_or(Sparse6Error::NoPrevious)?;
-            let nodes = previous.nodes() as u32;
-            // What is listed an odd number of times changes.
-            let mut all = pairs(nodes, body)?;
-            for pair in &mut all {
-                *pair = (pair.0.min(pair.1), pair.0.max(pair.1));
-            }
-            all.extend(previous.edges());
-            all.sort_unstable();
-            let runs = all.chunk_by(|a, b| a == b);
-            let odd = runs.filter(|run| run.len() % 2 == 1).map(|run| run[0]);
-            simple(nodes, odd.collect())
-        }
-        _ => Err(Sparse6Error::Start),
+    let body = match line {
+        [b':', body @ ..] => body,
+        [b';', ..] => return Err(Sparse6Error::Incremental),
+        _ => return Err(Sparse6Error::Start),
+    };
+    let (nodes, body) = graph6::size(body).map_err(|_| Sparse6Error::NoSize)?;
+    let too_large = Sparse6Error::TooLarge { nodes };
+    let count = u32::try_from(nodes).map_err(|_| too_large.clone())?;
+    let pairs = pairs(count, body)?;
+    let isolated = ISOLATED_PER_CHARACTER * line.len() as u64;
+    if nodes > isolated + 2 * pairs.len() as u64 {
+        return Err(too_large);
     }
-}
-
-fn simple(nodes: u32, pairs: Vec<(u32, u32)>) -> Result<(Graph, usize), Sparse6Error> {
-    Graph::from_pairs(nodes, pairs).map_err(|error| match error {
+    Graph::from_pairs(count, pairs).map_err(|error| match error {
         GraphError::SelfLoop(node) => Sparse6Error::SelfLoop(node),
         // Nodes of pairs are below the number of nodes.
-        GraphError::OutOfRange { nodes, .. } => Sparse6Error::TooLarge {
-            nodes: nodes.into(),
-        },
+        GraphError::OutOfRange { .. } => too_large,
     })
 }
 
@@ -157,29 +133,18 @@ mod tests {
     use super::*;
 
     fn edges(line: &str) -> Vec<(u32, u32)> {
-        decode(line.as_bytes(), None).unwrap().0.edges().to_vec()
+        decode(line.as_bytes()).unwrap().0.edges().to_vec()
     }
 
     /// `:Fa@x^` is the example of nauty's `formats.txt`: 0-1, 0-2, 1-2, 5-6 on 7 nodes.
     #[test]
     fn known_graphs() {
         assert_eq!(edges(":Fa@x^"), [(0, 1), (0, 2), (1, 2), (5, 6)]);
-        assert_eq!(decode(b":Fa@x^", None).unwrap().0.nodes(), 7);
+        assert_eq!(decode(b":Fa@x^").unwrap().0.nodes(), 7);
         assert_eq!(edges(":An"), [(0, 1)]);
         assert_eq!(edges(":B"), []);
-        assert_eq!(decode(b":@", None).unwrap().0.nodes(), 1);
-        assert_eq!(decode(b":?", None).unwrap().0.nodes(), 0);
-    }
-
-    #[test]
-    fn increments_change_the_previous_graph() {
-        let (first, _) = decode(b":Fa@x^", None).unwrap();
-        let (same, _) = decode(b";", Some(&first)).unwrap();
-        assert_eq!(same, first);
-        // The same edges again: none are left.
-        let (none, _) = decode(b";a@x^", Some(&first)).unwrap();
-        assert_eq!((none.nodes(), none.edges()), (7, &[][..]));
-        assert_eq!(decode(b";a@x^", Some(&none)).unwrap().0, first);
+        assert_eq!(decode(b":@").unwrap().0.nodes(), 1);
+        assert_eq!(decode(b":?").unwrap().0.nodes(), 0);
     }
 
     #[test]
@@ -206,7 +171,7 @@ mod tests {
                     byte: 32,
                 },
             ),
-            (b";a", Sparse6Error::NoPrevious),
+            (b";a", Sparse6Error::Incremental),
             (
                 b":~~~~~~~~",
                 Sparse6Error::TooLarge {
@@ -215,15 +180,15 @@ mod tests {
             ),
         ];
         for (line, error) in bad {
-            assert_eq!(decode(line, None), Err(error), "{}", line.escape_ascii());
+            assert_eq!(decode(line), Err(error), "{}", line.escape_ascii());
         }
         // 16,777,215 nodes in nine characters, and 5,120 and one more in five.
-        let promised = |line: &[u8]| decode(line, None).map(|(graph, _)| graph.nodes());
+        let promised = |line: &[u8]| decode(line).map(|(graph, _)| graph.nodes());
         let too_large = |nodes| Err(Sparse6Error::TooLarge { nodes });
         assert_eq!(promised(b":~~??~~~~"), too_large((1 << 24) - 1));
         assert_eq!(promised(b":~@O?"), Ok(5120));
         assert_eq!(promised(b":~@O@"), too_large(5121));
         // Two nodes: (1, 1) is not there, (0, 0) is a loop.
-        assert_eq!(decode(b":A?", None), Err(Sparse6Error::SelfLoop(0)));
+        assert_eq!(decode(b":A?"), Err(Sparse6Error::SelfLoop(0)));
     }
 }

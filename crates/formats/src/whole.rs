@@ -18,7 +18,7 @@ pub fn bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
     } else {
         fs::read(path)
     };
-    read.map_err(|error| at(path, Problem::Unreadable(error)))
+    read.map_err(|error| at(path, Problem::unreadable(&error)))
 }
 
 /// The same as text.
@@ -26,7 +26,7 @@ pub fn bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
 /// # Errors
 /// A file that cannot be read, or is not UTF-8.
 pub fn text(path: &Path) -> Result<String, ReadError> {
-    String::from_utf8(bytes(path)?).map_err(|_| at(path, Problem::NotUtf8))
+    String::from_utf8(bytes(path)?).map_err(|_| at(path, Problem::not_utf8()))
 }
 
 /// The text in bytes that may be compressed.
@@ -42,7 +42,7 @@ pub(crate) fn text_of(bytes: &[u8]) -> Result<String, Problem> {
         }
         false => bytes.to_vec(),
     };
-    String::from_utf8(bytes).map_err(|_| Problem::NotUtf8)
+    String::from_utf8(bytes).map_err(|_| Problem::not_utf8())
 }
 
 fn at(path: &Path, problem: Problem) -> ReadError {

@@ -1,9 +1,10 @@
 //! What stands for an open database in a build that opens none: nothing, so its methods are never called.
 
+use super::error;
 use std::path::Path;
 
-use super::{DatabaseError, FeatureTracks, Groups, Pipeline, TwoViews};
-use crate::error::Place;
+use super::{FeatureTracks, Groups, Pipeline, TwoViews};
+use crate::error::{Fault, Problem};
 use crate::{NamedGraph, ReadError, ReadOptions, TrackOptions};
 
 /// A row, of which there is none.
@@ -14,10 +15,7 @@ pub type RawRow = (Vec<i64>, Vec<Vec<u8>>);
 /// # Errors
 /// Always.
 pub fn raw_tables(path: &Path) -> Result<[Vec<RawRow>; 4], ReadError> {
-    let error = DatabaseError::NotBuilt.into();
-    Err(Place::Input
-        .fault(error)
-        .in_file(&path.display().to_string()))
+    Err(Fault::from(error::not_built()).in_file(&path.display().to_string()))
 }
 
 /// A database, which this build does not have.
@@ -32,8 +30,7 @@ impl Database {
     /// # Errors
     /// Always.
     pub(crate) fn open(name: &str, _: &Path, _: &ReadOptions) -> Result<Self, ReadError> {
-        let error = DatabaseError::NotBuilt.into();
-        Err(Place::Input.fault(error).in_file(name))
+        Err(Fault::from(error::not_built()).in_file(name))
     }
 
     /// The graph of its pairs.
@@ -129,7 +126,7 @@ impl Views<'_> {
     ///
     /// # Errors
     /// None.
-    pub fn two(&mut self, _: u32, _: u32) -> Result<Option<TwoViews>, DatabaseError> {
+    pub fn two(&mut self, _: u32, _: u32) -> Result<Option<TwoViews>, Problem> {
         match *self.0 {}
     }
 }

@@ -3,7 +3,8 @@
 //! (docs/theory.md, Proposition 17.17). Measured in floating point, and no part of a verdict.
 
 use super::pairs::Pair;
-use super::{DatabaseError, DatabaseFacts, Estimate};
+use super::{DatabaseFacts, Estimate};
+use crate::error::Problem;
 use std::cmp::Reverse;
 use std::collections::VecDeque;
 use viewcert::graph::{Lists, UnionFind};
@@ -22,8 +23,8 @@ type Vector = [f64; 3];
 pub(super) fn are_parallel(
     pairs: &[Pair],
     facts: &DatabaseFacts,
-    mut geometry: impl FnMut((u32, u32)) -> Result<Option<Estimate>, DatabaseError>,
-) -> Result<bool, DatabaseError> {
+    mut geometry: impl FnMut((u32, u32)) -> Result<Option<Estimate>, Problem>,
+) -> Result<bool, Problem> {
     let mut tree: Vec<&Pair> = pairs.iter().filter(|pair| pair.used).collect();
     tree.sort_by_key(|pair| Reverse(pair.inliers));
     let mut sets = UnionFind::new(facts.images);

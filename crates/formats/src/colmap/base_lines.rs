@@ -4,7 +4,8 @@
 //! Nor has a pair that is degenerate, or of which a watermark was matched.
 
 use super::pairs::Pair;
-use super::{DatabaseError, Estimate, Groups, config_name};
+use super::{Estimate, Groups, config_name};
+use crate::error::Problem;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 use viewcert::graph::{Lists, UnionFind};
@@ -24,8 +25,8 @@ pub(super) fn groups(
     images: usize,
     parts: &[Vec<u32>],
     frames: &[Vec<u32>],
-    mut geometry: impl FnMut((u32, u32)) -> Result<Option<Estimate>, DatabaseError>,
-) -> Result<Vec<Groups>, DatabaseError> {
+    mut geometry: impl FnMut((u32, u32)) -> Result<Option<Estimate>, Problem>,
+) -> Result<Vec<Groups>, Problem> {
     let members = (0..).zip(parts);
     let members = members.flat_map(|(k, part)| part.iter().map(move |&image| (image, k)));
     let parts_of = Lists::group(images, members);
@@ -98,8 +99,8 @@ pub(super) fn groups(
 pub(super) fn note(
     pairs: &[Pair],
     images: usize,
-    geometry: impl FnMut((u32, u32)) -> Result<Option<Estimate>, DatabaseError>,
-) -> Result<Option<String>, DatabaseError> {
+    geometry: impl FnMut((u32, u32)) -> Result<Option<Estimate>, Problem>,
+) -> Result<Option<String>, Problem> {
     let all: Vec<u32> = (0..images as u32).collect();
     let found = groups(pairs, images, &[all], &[], geometry)?;
     let found = found.into_iter().find(|found| found.pairs > 0);

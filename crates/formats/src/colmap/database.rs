@@ -4,11 +4,9 @@ use std::path::Path;
 
 use super::open::Opened;
 use super::pairs::{Tables, of_cameras};
-use super::{
-    DatabaseError, DatabaseFacts, Estimate, FeatureTracks, Groups, Pipeline, Views, estimate,
-};
+use super::{DatabaseFacts, Estimate, FeatureTracks, Groups, Pipeline, Views, estimate};
 use super::{axes, base_lines, positions, raw, rigs, tracks};
-use crate::error::{Fault, Place, Problem};
+use crate::error::{Fault, Problem};
 use crate::motions::{Motions, Source};
 use crate::{Matching, NamedGraph, ReadAs, ReadError, ReadOptions, TrackOptions};
 use viewcert::graph::{Graph, Labels};
@@ -35,7 +33,7 @@ impl Database {
     /// Opens a database, which graphs and errors call `name`, and reads its images and pairs. O(images + pairs) and the sorting of both.
     ///
     /// # Errors
-    /// See [`DatabaseError`].
+    /// See [`Problem`].
     pub(crate) fn open(name: &str, path: &Path, options: &ReadOptions) -> Result<Self, ReadError> {
         let read = || {
             let opened = Opened::new(path)?;
@@ -79,7 +77,7 @@ impl Database {
     /// matches, but for nearly constant factors.
     ///
     /// # Errors
-    /// See [`DatabaseError`]; tracks that no graph can hold.
+    /// See [`Problem`]; tracks that no graph can hold.
     pub fn tracks(&self, options: TrackOptions) -> Result<NamedGraph, ReadError> {
         let graph = self.camera_point_graph(options);
         let mut graph = graph.map_err(|fault| fault.in_file(&self.name))?;
@@ -99,20 +97,12 @@ impl Database {
         if taken.clone().eq(self.pairs.edges().iter().copied()) || taken.len() == 0 {
             return Ok(None);
         }
-        let input = |problem| Place::Input.fault(problem);
         let read = || {
-            let opened = self.opened.wake();
-            opened.map_err(|error| input(error.into()))?;
-            let Tables {
-                names,
-                nodes,
-                table,
-                ..
-            } = &self.tables;
-            let pairs = Graph::new(names.len() as u32, taken)
-                .map_err(|error| input(Problem::Corrupt(error.to_string())))?;
+            self.opened.wake()?;
+            let pairs =
+                Graph::new(self.tables.names.len() as u32, taken).map_err(Problem::corrupt)?;
             let connection = &self.opened.connection;
-            tracks::read(connection, table, names, nodes, &pairs, None, options)
+            tracks::read(connection, &self.tables, &pairs, None, options)
         };
         let graph = read().map_err(|fault: Fault| fault.in_file(&self.name))?;
         Ok(Some(self.finished(graph, false)))
@@ -127,7 +117,7 @@ impl Database {
     /// keypoints and matches if it is asked. O(matches), and linear in what is hashed.
     ///
     /// # Errors
-    /// See [`DatabaseError`].
+    /// See [`Problem`].
     pub fn motions(&self, hashed: bool) -> Result<Motions, ReadError> {
         let read = || {
             self.opened.wake()?;
@@ -154,25 +144,19 @@ impl Database {
     pub fn matches(&self) -> Result<Vec<[(u32, u32); 2]>, ReadError> {
         let read = || {
             self.opened.wake()?;
-            let Tables {
-                names,
-                nodes,
-                table,
-                ..
-            } = &self.tables;
             let taken = self.taken_by(Pipeline::Incremental);
             let taken = taken.iter().map(|&(pair, _)| pair);
-            let pairs = Graph::new(names.len() as u32, taken);
-            let pairs = pairs.map_err(|error| Problem::Corrupt(error.to_string()))?;
-            tracks::matches(&self.opened.connection, table, names, nodes, &pairs)
+            let pairs = Graph::new(self.tables.names.len() as u32, taken);
+            let pairs = pairs.map_err(Problem::corrupt)?;
+            tracks::matches(&self.opened.connection, &self.tables, &pairs)
         };
-        read().map_err(|problem| Place::Input.fault(problem).in_file(&self.name))
+        read().map_err(|problem| in_file(&self.name, problem))
     }
 
     /// The images of each part by the pairs that have a base line; images of a frame stay together.
     ///
     /// # Errors
-    /// See [`DatabaseError`].
+    /// See [`Problem`].
     pub fn by_base_lines(
         &self,
         parts: &[Vec<u32>],
@@ -185,29 +169,14 @@ impl Database {
     }
 
     fn camera_point_graph(&self, options: TrackOptions) -> Result<NamedGraph, Fault> {
-        let input = |error: DatabaseError| Place::Input.fault(error.into());
-        self.opened.wake().map_err(input)?;
-        let Tables {
-            names,
-            nodes,
-            table,
-            ..
-        } = &self.tables;
+        self.opened.wake()?;
         let connection = &self.opened.connection;
         let frames = if options.rigs {
-            rigs::read(connection, names, nodes).map_err(input)?
+            rigs::read(connection, &self.tables.names, &self.tables.nodes)?
         } else {
             None
         };
-        let graph = tracks::read(
-            connection,
-            table,
-            names,
-            nodes,
-            &self.pairs,
-            frames,
-            options,
-        )?;
+        let graph = tracks::read(connection, &self.tables, &self.pairs, frames, options)?;
         let known = self
             .tables
             .between_cameras(&self.pairs, self.matching.clone());
@@ -223,24 +192,18 @@ impl Database {
     /// Which features are the same point, by the matches of these pairs.
     ///
     /// # Errors
-    /// See [`DatabaseError`].
+    /// See [`Problem`].
     pub fn feature_tracks(&self) -> Result<FeatureTracks, ReadError> {
-        let fault = |problem| Place::Input.fault(problem).in_file(&self.name);
-        self.opened.wake().map_err(|error| fault(error.into()))?;
-        let Tables {
-            names,
-            nodes,
-            table,
-            ..
-        } = &self.tables;
+        let fault = |problem| in_file(&self.name, problem);
+        self.opened.wake().map_err(fault)?;
         let connection = &self.opened.connection;
-        tracks::of_features(connection, table, names, nodes, &self.pairs).map_err(fault)
+        tracks::of_features(connection, &self.tables, &self.pairs).map_err(fault)
     }
 
     /// The geometry of its pairs, to be asked for one by one. O(images).
     ///
     /// # Errors
-    /// See [`DatabaseError`].
+    /// See [`Problem`].
     pub fn views(&self) -> Result<Views<'_>, ReadError> {
         let views = views(&self.opened, &self.tables);
         views.map_err(|error| in_file(&self.name, error))
@@ -279,7 +242,7 @@ impl Database {
     }
 }
 
-fn views<'a>(opened: &'a Opened, tables: &Tables) -> Result<Views<'a>, DatabaseError> {
+fn views<'a>(opened: &'a Opened, tables: &Tables) -> Result<Views<'a>, Problem> {
     opened.wake()?;
     let images = tables.names.len();
     Views::new(&opened.connection, tables.table, images, &tables.nodes)
@@ -301,7 +264,7 @@ impl<'a> Geometry<'a> {
         }
     }
 
-    fn of(&mut self, (a, b): (u32, u32)) -> Result<Option<Estimate>, DatabaseError> {
+    fn of(&mut self, (a, b): (u32, u32)) -> Result<Option<Estimate>, Problem> {
         if self.views.is_none() {
             self.views = Some(views(self.opened, self.tables)?);
         }
@@ -312,6 +275,6 @@ impl<'a> Geometry<'a> {
     }
 }
 
-fn in_file(name: &str, error: DatabaseError) -> ReadError {
-    Place::Input.fault(error.into()).in_file(name)
+fn in_file(name: &str, error: Problem) -> ReadError {
+    Fault::from(error).in_file(name)
 }

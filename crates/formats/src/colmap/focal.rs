@@ -1,13 +1,15 @@
 //! Which camera took each image of a database, and what it knows of the focal length of each camera.
 
+use super::error;
+use crate::error::Problem;
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
 use rusqlite::Connection;
 
 use super::open::Opened;
-use super::tables::{columns, images};
-use super::{DatabaseError, Focal, FocalLengths};
+use super::tables::{has, images};
+use super::{Focal, FocalLengths};
 
 /// The number of COLMAP's model of a whole sphere (`EQUIRECTANGULAR`), whose parameters are the width and
 /// height of the image.
@@ -18,15 +20,15 @@ pub(super) const SPHERICAL: i64 = 17;
 ///
 /// # Errors
 /// Those of SQLite.
-pub(super) fn of_cameras(
-    connection: &Connection,
-) -> Result<Option<HashMap<i64, Focal>>, DatabaseError> {
-    let present = columns(connection, "cameras")?;
-    let has = |column: &str| present.iter().any(|name| name == column);
-    if !has("camera_id") || !has("prior_focal_length") {
+pub(super) fn of_cameras(connection: &Connection) -> Result<Option<HashMap<i64, Focal>>, Problem> {
+    if !has(connection, "cameras", &["camera_id", "prior_focal_length"])? {
         return Ok(None);
     }
-    let model = if has("model") { "model" } else { "0" };
+    let model = if has(connection, "cameras", &["model"])? {
+        "model"
+    } else {
+        "0"
+    };
     let query = format!("select camera_id, {model}, prior_focal_length from cameras");
     let mut statement = connection.prepare(&query)?;
     let known = statement.query_map([], |row| {
@@ -48,11 +50,8 @@ pub(super) fn of_cameras(
 pub(super) fn of_images(
     connection: &Connection,
     nodes: &HashMap<i64, u32>,
-) -> Result<Option<HashMap<u32, i64>>, DatabaseError> {
-    if !columns(connection, "images")?
-        .iter()
-        .any(|name| name == "camera_id")
-    {
+) -> Result<Option<HashMap<u32, i64>>, Problem> {
+    if !has(connection, "images", &["camera_id"])? {
         return Ok(None);
     }
     let mut statement = connection.prepare("select image_id, camera_id from images")?;
@@ -60,7 +59,7 @@ pub(super) fn of_images(
     let mut cameras = HashMap::new();
     for row in rows {
         let (image, camera): (i64, i64) = row?;
-        let node = nodes.get(&image).ok_or(DatabaseError::Changed)?;
+        let node = nodes.get(&image).ok_or(error::changed())?;
         cameras.insert(*node, camera);
     }
     Ok(Some(cameras))
@@ -70,12 +69,11 @@ pub(super) fn of_images(
 ///
 /// # Errors
 /// A database that cannot be read, or without cameras; an image whose camera is not there.
-pub(crate) fn focal_lengths(path: &Path) -> Result<FocalLengths, DatabaseError> {
+pub(crate) fn focal_lengths(path: &Path) -> Result<FocalLengths, Problem> {
     let opened = Opened::new(path)?;
     let connection = &opened.connection;
-    let missing = |table, column| {
-        DatabaseError::NotColmap(format!("its table `{table}` has no column `{column}`"))
-    };
+    let missing =
+        |table, column| error::not_colmap(format!("its table `{table}` has no column `{column}`"));
     let known = of_cameras(connection)?;
     let known = known.ok_or_else(|| missing("cameras", "prior_focal_length"))?;
     let (names, nodes) = images(connection)?;
@@ -85,10 +83,9 @@ pub(crate) fn focal_lengths(path: &Path) -> Result<FocalLengths, DatabaseError> 
     for (node, camera) in of_nodes {
         let name = &names[node as usize];
         if !known.contains_key(&camera) {
-            return Err(DatabaseError::NoCamera {
-                image: name.to_string(),
-                camera,
-            });
+            let what = format!("the image {name} is taken by camera {camera}, which is not there");
+            let remedy = "write the classes of cameras into a file, and give it to --intrinsics";
+            return Err(error::database(what, remedy));
         }
         cameras.insert(name.clone(), camera);
     }

@@ -5,12 +5,11 @@
 
 use std::collections::HashMap;
 
-use rusqlite::types::ValueRef;
 use rusqlite::{Connection, OptionalExtension};
 
-use super::DatabaseError;
-use super::tables::columns;
-use crate::error::Problem;
+use super::error;
+use super::tables::has;
+use crate::error::{Kind, Problem};
 use crate::tracks::Places;
 
 /// Bytes of a coordinate.
@@ -29,11 +28,12 @@ pub(super) struct Keypoints<'a> {
     missing: usize,
 }
 
-fn damaged(names: &[Box<str>], node: u32, why: String) -> DatabaseError {
-    DatabaseError::Keypoints {
-        image: names[node as usize].to_string(),
-        why,
-    }
+fn damaged(names: &[Box<str>], node: u32, why: String) -> Problem {
+    let what = format!(
+        "the keypoints of the image {} are damaged: {why}",
+        names[node as usize]
+    );
+    Problem::of(Kind::Keypoints, what, error::AGAIN)
 }
 
 /// How many features every image has, by its node; none where the database has no list of them, and nothing
@@ -45,14 +45,9 @@ pub(super) fn counts(
     connection: &Connection,
     names: &[Box<str>],
     nodes: &HashMap<i64, u32>,
-) -> Result<Option<Vec<Option<u32>>>, DatabaseError> {
+) -> Result<Option<Vec<Option<u32>>>, Problem> {
     let mut counts = vec![None; names.len()];
-    let present = columns(connection, "keypoints")?;
-    let wanted = ["image_id", "rows", "cols", "data"];
-    if !wanted
-        .iter()
-        .all(|column| present.iter().any(|name| name == column))
-    {
+    if !has(connection, "keypoints", &COLUMNS)? {
         return Ok(None);
     }
     let mut statement = connection.prepare("select image_id, rows from keypoints")?;
@@ -79,7 +74,7 @@ impl<'a> Keypoints<'a> {
         names: &'a [Box<str>],
         nodes: &HashMap<i64, u32>,
         spread: u32,
-    ) -> Result<Self, DatabaseError> {
+    ) -> Result<Self, Problem> {
         let mut ids = vec![0; names.len()];
         for (&id, &node) in nodes {
             ids[node as usize] = id;
@@ -116,64 +111,74 @@ impl<'a> Keypoints<'a> {
              are one is not known there, and tracks with two in {have} are dropped"
         ))
     }
+}
 
-    fn damaged(&self, node: u32, why: String) -> DatabaseError {
-        damaged(self.names, node, why)
-    }
+/// The columns of the table of keypoints.
+pub(super) const COLUMNS: [&str; 4] = ["image_id", "rows", "cols", "data"];
 
-    /// The places of some features in a list as the database has it.
-    fn of_list(
-        &self,
-        node: u32,
-        [rows, cols]: [i64; 2],
-        list: &[u8],
-        features: &[u32],
-    ) -> Result<Vec<[f32; 2]>, DatabaseError> {
-        let size = |count: i64| usize::try_from(count).ok();
-        let bytes = size(rows).zip(size(cols)).and_then(|(rows, cols)| {
-            let row = cols.checked_mul(COORDINATE)?;
-            Some((row, rows.checked_mul(row)?))
-        });
-        let Some((row, _)) = bytes.filter(|&(_, all)| cols >= 2 && all == list.len()) else {
+/// The places of all features of an image, by its number in the database: the first two of so many columns each;
+/// nothing if the database has none.
+///
+/// # Errors
+/// Those of SQLite; why the list is damaged.
+#[expect(clippy::type_complexity, reason = "two kinds of errors")]
+pub(super) fn places(
+    connection: &Connection,
+    id: i64,
+) -> Result<Result<Option<Vec<[f32; 2]>>, String>, Problem> {
+    let query = "select rows, cols, data from keypoints where image_id = ?";
+    let mut statement = connection.prepare_cached(query)?;
+    let found = statement.query_row([id], |row| {
+        let (rows, columns): (Option<i64>, Option<i64>) = (row.get(0)?, row.get(1)?);
+        let (rows, columns) = (rows.unwrap_or(0), columns.unwrap_or(0));
+        // Emptied, and the numbers are left.
+        let list = row.get_ref(2)?.as_blob().unwrap_or(&[]);
+        if list.is_empty() {
+            return Ok(Ok(None));
+        }
+        let width = usize::try_from(columns).ok().filter(|&columns| columns > 1);
+        let size = width.and_then(|width| width.checked_mul(usize::try_from(rows).ok()?));
+        if size.and_then(|size| size.checked_mul(COORDINATE)) != Some(list.len()) {
             let bytes = list.len();
-            let why = format!("{rows} features of {cols} numbers are not {bytes} bytes");
-            return Err(self.damaged(node, why));
-        };
-        let at = |feature: u32| {
-            let start = feature as usize * row;
-            let (numbers, _) = list.get(start..start + 2 * COORDINATE)?.as_chunks();
-            let [x, y] = [0, 1].map(|k: usize| f32::from_le_bytes(numbers[k]));
-            (x.is_finite() && y.is_finite()).then_some([x, y])
-        };
-        let places = features.iter().map(|&feature| {
-            at(feature).ok_or_else(|| self.damaged(node, format!("feature {feature} has no place")))
-        });
-        places.collect()
-    }
+            return Ok(Err(format!(
+                "{rows} features of {columns} numbers are not {bytes} bytes"
+            )));
+        }
+        let number = |bytes: &[u8]| f32::from_le_bytes(bytes.try_into().expect("four bytes"));
+        let places = list.chunks_exact(COORDINATE * width.unwrap_or(1));
+        Ok(Ok(Some(
+            places
+                .map(|row| [number(&row[..4]), number(&row[4..8])])
+                .collect(),
+        )))
+    });
+    Ok(found.optional()?.unwrap_or(Ok(None)))
 }
 
 impl Places for Keypoints<'_> {
     fn places(&mut self, image: u32, features: &[u32]) -> Result<Option<Vec<[f32; 2]>>, Problem> {
-        let sql = |error: rusqlite::Error| Problem::from(DatabaseError::from(error));
         if self.counts[image as usize].is_none() {
             self.missing += 1;
             return Ok(None);
         }
-        let query = "select rows, cols, data from keypoints where image_id = ?";
-        let mut statement = self.connection.prepare_cached(query).map_err(sql)?;
-        let found = statement.query_row([self.ids[image as usize]], |row| {
-            let size = [row.get(0)?, row.get(1)?];
-            let list = match row.get_ref(2)? {
-                ValueRef::Blob(list) => list,
-                _ => &[],
-            };
-            // Emptied, and the numbers are left.
-            let known = !list.is_empty();
-            Ok(known.then(|| self.of_list(image, size, list, features)))
-        });
-        let found = found.optional().map_err(sql)?.flatten().transpose()?;
+        let damaged = |why| damaged(self.names, image, why);
+        let found = places(self.connection, self.ids[image as usize])?.map_err(damaged)?;
         self.missing += usize::from(found.is_none());
-        Ok(found)
+        let place = |feature: &u32| {
+            let place = found.as_ref()?.get(*feature as usize).copied();
+            place.filter(|place| place.iter().all(|x| x.is_finite()))
+        };
+        let known = |feature| {
+            place(feature).ok_or_else(|| damaged(format!("feature {feature} has no place")))
+        };
+        match found {
+            None => Ok(None),
+            Some(_) => features
+                .iter()
+                .map(known)
+                .collect::<Result<_, _>>()
+                .map(Some),
+        }
     }
 
     fn spread(&self) -> u32 {

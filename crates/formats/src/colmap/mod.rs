@@ -14,9 +14,7 @@ mod axes;
 mod base_lines;
 #[cfg(feature = "databases")]
 mod database;
-#[cfg(feature = "databases")]
-mod doubles;
-mod error;
+pub(crate) mod error;
 mod estimate;
 mod facts;
 #[cfg(feature = "databases")]
@@ -49,7 +47,6 @@ mod views;
 pub use absent::{Database, RawRow, Views, raw_tables};
 #[cfg(feature = "databases")]
 pub use database::Database;
-pub use error::DatabaseError;
 pub use estimate::{Estimate, LEAST_ANGLE, estimate};
 pub use facts::{Bin, ConfigCount, DatabaseFacts, Groups, config_name};
 #[cfg(feature = "databases")]
@@ -74,8 +71,8 @@ use std::path::Path;
 /// # Errors
 /// Always.
 #[cfg(not(feature = "databases"))]
-pub(crate) fn pose_priors(_: &Path) -> Result<PosePriors, DatabaseError> {
-    Err(DatabaseError::NotBuilt)
+pub(crate) fn pose_priors(_: &Path) -> Result<PosePriors, Problem> {
+    Err(error::not_built())
 }
 
 /// Says that this build reads none.
@@ -83,8 +80,8 @@ pub(crate) fn pose_priors(_: &Path) -> Result<PosePriors, DatabaseError> {
 /// # Errors
 /// Always.
 #[cfg(not(feature = "databases"))]
-pub(crate) fn focal_lengths(_: &Path) -> Result<FocalLengths, DatabaseError> {
-    Err(DatabaseError::NotBuilt)
+pub(crate) fn focal_lengths(_: &Path) -> Result<FocalLengths, Problem> {
+    Err(error::not_built())
 }
 
 /// The positions that the pose priors of a database give.

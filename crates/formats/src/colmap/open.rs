@@ -7,6 +7,8 @@
 //! file, a `-shm` file beside it belongs to a program that has the database open: it is used and
 //! not written to. If there is none, SQLite would make one; so a temporary copy is read.
 
+use super::error;
+use crate::error::Problem;
 use std::cell::Cell;
 use std::fs::{self, File};
 use std::io::Read;
@@ -15,8 +17,6 @@ use std::time::{Duration, SystemTime};
 
 use rusqlite::config::DbConfig;
 use rusqlite::{Connection, OpenFlags};
-
-use super::DatabaseError;
 
 /// How long a writer may keep a reader waiting.
 const PATIENCE: Duration = Duration::from_secs(2);
@@ -67,8 +67,8 @@ impl Opened {
     ///
     /// # Errors
     /// If it cannot be opened; much of what is wrong with a database shows only when it is read.
-    pub(super) fn new(path: &Path) -> Result<Self, DatabaseError> {
-        let other = |error: std::io::Error| DatabaseError::Other(error.to_string());
+    pub(super) fn new(path: &Path) -> Result<Self, Problem> {
+        let other = |error: std::io::Error| error::other(error);
         // Companions stand beside the file itself, not beside a link to it.
         let path = fs::canonicalize(path).map_err(other)?;
         if cfg!(target_os = "wasi") {
@@ -89,7 +89,7 @@ impl Opened {
         Self::copied(&path, &wal)
     }
 
-    fn with(path: &Path, how: &str, unlocked: Option<State>) -> Result<Self, DatabaseError> {
+    fn with(path: &Path, how: &str, unlocked: Option<State>) -> Result<Self, Problem> {
         let flags = OpenFlags::SQLITE_OPEN_READ_ONLY
             | OpenFlags::SQLITE_OPEN_URI
             | OpenFlags::SQLITE_OPEN_NO_MUTEX;
@@ -113,8 +113,12 @@ impl Opened {
             Err(rusqlite::Error::SqliteFailure(code, text))
                 if code.code == rusqlite::ErrorCode::CannotOpen =>
             {
-                Err(DatabaseError::Companions(
-                    text.unwrap_or_else(|| code.to_string()),
+                let why = text.unwrap_or_else(|| code.to_string());
+                let what =
+                    "the SQLite database cannot be opened together with its -wal and -shm files";
+                Err(error::database(
+                    format!("{what}: {why}"),
+                    "check the permissions of all three, or copy them to a folder of yours",
                 ))
             }
             Err(error) => Err(error.into()),
@@ -138,7 +142,7 @@ impl Opened {
     ///
     /// # Errors
     /// Those of SQLite.
-    pub(super) fn rest(&self) -> Result<(), DatabaseError> {
+    pub(super) fn rest(&self) -> Result<(), Problem> {
         if self.resting.get().is_none() {
             self.resting.set(Some(self.data_version()?));
             self.connection.execute_batch("commit")?;
@@ -150,19 +154,19 @@ impl Opened {
     ///
     /// # Errors
     /// If somebody has written meanwhile.
-    pub(super) fn wake(&self) -> Result<(), DatabaseError> {
+    pub(super) fn wake(&self) -> Result<(), Problem> {
         let Some(version) = self.resting.take() else {
             return Ok(());
         };
         self.begin()?;
         if self.data_version()? != version {
-            return Err(DatabaseError::Changed);
+            return Err(error::changed());
         }
         Ok(())
     }
 
     /// A copy of the database and of its log, which nobody has open.
-    fn copied(path: &Path, wal: &Path) -> Result<Self, DatabaseError> {
+    fn copied(path: &Path, wal: &Path) -> Result<Self, Problem> {
         let copy = || {
             let folder = tempfile::Builder::new().prefix("verify-").tempdir()?;
             let to = folder.path().join("database.db");
@@ -171,15 +175,22 @@ impl Opened {
             fs::copy(wal, beside(&to, "-wal"))?;
             Ok((folder, to, states))
         };
-        let (folder, to, states) = copy().map_err(DatabaseError::NoCopy)?;
+        let no_copy = |why: std::io::Error| {
+            let what = "the last changes are in the -wal file, and a temporary copy of both fails";
+            error::database(
+                format!("{what}: {why}"),
+                "make room, name another folder in TMPDIR, or close the database properly: `sqlite3 FILE 'pragma wal_checkpoint(truncate)'`",
+            )
+        };
+        let (folder, to, states) = copy().map_err(no_copy)?;
         let same = |state: &State| {
             let now = State::of(&state.path);
             now.is_ok_and(|now| (now.modified, now.size) == (state.modified, state.size))
         };
         if !states.iter().all(same) {
-            return Err(DatabaseError::Changed);
+            return Err(error::changed());
         }
-        let to = fs::canonicalize(to).map_err(DatabaseError::NoCopy)?;
+        let to = fs::canonicalize(to).map_err(no_copy)?;
         let mut opened = Self::with(&to, "mode=ro", None)?;
         opened.note = Some(
             "its last changes are in the -wal file beside it; a temporary copy of both was read"
@@ -193,9 +204,9 @@ impl Opened {
     ///
     /// # Errors
     /// If somebody has written in between.
-    pub(super) fn finish(self) -> Result<(), DatabaseError> {
+    pub(super) fn finish(self) -> Result<(), Problem> {
         match &self.unlocked {
-            Some(state) if !state.holds() => Err(DatabaseError::Changed),
+            Some(state) if !state.holds() => Err(error::changed()),
             _ => Ok(()),
         }
     }
@@ -222,10 +233,10 @@ fn is_wal(path: &Path) -> std::io::Result<bool> {
 }
 
 /// A path as SQLite takes it with parameters.
-fn uri(path: &Path, parameters: &str) -> Result<String, DatabaseError> {
-    let path = path.to_str().ok_or_else(|| {
-        DatabaseError::Other("its path is no UTF-8, which SQLite does not open".into())
-    })?;
+fn uri(path: &Path, parameters: &str) -> Result<String, Problem> {
+    let path = path
+        .to_str()
+        .ok_or_else(|| error::other("its path is no UTF-8, which SQLite does not open"))?;
     let mut uri = String::from("file:");
     for c in path.chars() {
         match c {

@@ -1,11 +1,13 @@
 //! The tables of images and pairs, and the choice of the pairs that a mapper takes.
 
+use super::error;
+use crate::error::Problem;
 use std::collections::HashMap;
 
 use rusqlite::{Connection, Row};
 
-use super::tables::{NoPair, columns, ends, images, verified_table};
-use super::{DEFAULT_MIN_INLIERS, DatabaseError, Pipeline};
+use super::tables::{NoPair, columns, ends, has, images, verified_table};
+use super::{DEFAULT_MIN_INLIERS, Pipeline};
 use crate::{Matching, OtherPair, ReadOptions};
 use viewcert::graph::Graph;
 
@@ -60,10 +62,7 @@ impl Tables {
     ///
     /// # Errors
     /// What is no database of COLMAP, is damaged, or has no verified pair.
-    pub(super) fn read(
-        connection: &Connection,
-        options: &ReadOptions,
-    ) -> Result<Self, DatabaseError> {
+    pub(super) fn read(connection: &Connection, options: &ReadOptions) -> Result<Self, Problem> {
         let table = verified_table(connection)?;
         let (names, nodes) = images(connection)?;
         let meant = names.iter().map(|name| {
@@ -89,15 +88,27 @@ impl Tables {
         if tables.pairs.is_empty() && tables.dangling == 0 {
             let matched = tables.matches.iter().filter(|&&(_, count)| count > 0);
             return Err(match matched.count() {
-                0 => DatabaseError::NotMatched(tables.names.len()),
-                matched => DatabaseError::NotVerified(matched, table),
+                0 => error::database(
+                    format!(
+                        "the database has images, {}, but no matches",
+                        tables.names.len()
+                    ),
+                    "match the images first, for example with `colmap exhaustive_matcher --database_path FILE`",
+                ),
+                matched => error::database(
+                    format!(
+                        "{} matched, but none is verified: {table} is empty",
+                        error::are(matched)
+                    ),
+                    "run the geometric verification: `colmap geometric_verifier --database_path FILE`, or in Python `pycolmap.geometric_verification(FILE)`; COLMAP 3.8 has neither, there match again, for example with `colmap exhaustive_matcher`",
+                ),
             });
         }
         Ok(tables)
     }
 
     /// The verified pairs. Of a row only numbers are read, not what was matched.
-    fn read_pairs(&mut self, connection: &Connection) -> Result<(), DatabaseError> {
+    fn read_pairs(&mut self, connection: &Connection) -> Result<(), Problem> {
         let present = columns(connection, self.table)?;
         let has = |column: &str| present.iter().any(|name| name == column);
         let config = if has("config") { "config" } else { "0" };
@@ -152,12 +163,8 @@ impl Tables {
     }
 
     /// How many matches there were before verification, where the table says so.
-    fn read_matches(&mut self, connection: &Connection) -> Result<(), DatabaseError> {
-        let present = columns(connection, "matches")?;
-        if !["pair_id", "rows"]
-            .iter()
-            .all(|&column| present.iter().any(|name| name == column))
-        {
+    fn read_matches(&mut self, connection: &Connection) -> Result<(), Problem> {
+        if !has(connection, "matches", &["pair_id", "rows"])? {
             return Ok(());
         }
         let mut statement = connection.prepare("select pair_id, rows from matches")?;
@@ -192,43 +199,31 @@ impl Tables {
     }
 
     /// The graph of the pairs that are used, and what is known of all pairs.
-    pub(super) fn graph(&self) -> Result<(Graph, Matching), DatabaseError> {
+    pub(super) fn graph(&self) -> Result<(Graph, Matching), Problem> {
         let nodes = u32::try_from(self.names.len())
-            .map_err(|_| DatabaseError::Other("it has more than 4294967295 images".into()))?;
+            .map_err(|_| error::other("it has more than 4294967295 images"))?;
         let mut used: Vec<_> = self.pairs.iter().filter(|pair| pair.used).collect();
         used.sort_unstable_by_key(|pair| pair.nodes);
         let edges = used.iter().map(|pair| pair.nodes).collect();
         // Rows are keyed by the pair, so no edge comes twice; loops and strangers are left out.
-        let (graph, merged) = Graph::from_pairs(nodes, edges)
-            .map_err(|error| DatabaseError::Damaged(error.to_string()))?;
+        let (graph, merged) =
+            Graph::from_pairs(nodes, edges).map_err(|error| error::damaged(error.to_string()))?;
         if merged > 0 {
-            return Err(DatabaseError::Damaged(format!(
-                "{} has pairs twice",
-                self.table
-            )));
+            return Err(error::damaged(format!("{} has pairs twice", self.table)));
         }
-        let mut others: Vec<OtherPair> = Vec::new();
-        others.extend(
-            self.pairs
-                .iter()
-                .filter(|pair| !pair.used)
-                .map(|pair| OtherPair {
-                    images: pair.nodes,
-                    inliers: pair.inliers,
-                    matches: None,
-                    verified: true,
-                    used: false,
-                }),
-        );
+        let other = |images, inliers, matches| OtherPair {
+            images,
+            inliers,
+            matches,
+            verified: matches.is_none(),
+            used: false,
+        };
+        let unused = self.pairs.iter().filter(|pair| !pair.used);
+        let unused = unused.map(|pair| other(pair.nodes, pair.inliers, None));
         let matched = self.matches.iter();
         let matched = matched.filter(|(images, _)| graph.edge_number(images.0, images.1).is_none());
-        others.extend(matched.map(|&(images, matches)| OtherPair {
-            images,
-            inliers: 0,
-            matches: Some(matches),
-            verified: false,
-            used: false,
-        }));
+        let matched = matched.map(|&(images, matches)| other(images, 0, Some(matches)));
+        let mut others: Vec<OtherPair> = unused.chain(matched).collect();
         // Of a pair with both, what was verified comes first and learns how many were matched.
         others.sort_by_key(|pair| pair.images);
         others.dedup_by(|later, first| {
@@ -302,11 +297,8 @@ pub(super) fn of_cameras(matching: Matching, camera_of: impl Fn(u32) -> u32) -> 
 }
 
 /// How many rigs have sensors besides their reference sensor.
-fn several_sensors(connection: &Connection) -> Result<usize, DatabaseError> {
-    if !columns(connection, "rig_sensors")?
-        .iter()
-        .any(|name| name == "rig_id")
-    {
+fn several_sensors(connection: &Connection) -> Result<usize, Problem> {
+    if !has(connection, "rig_sensors", &["rig_id"])? {
         return Ok(0);
     }
     let query = "select count(distinct rig_id) from rig_sensors";
@@ -315,25 +307,25 @@ fn several_sensors(connection: &Connection) -> Result<usize, DatabaseError> {
 }
 
 /// The version that a database was written by.
-fn version(connection: &Connection) -> Result<Option<u32>, DatabaseError> {
+fn version(connection: &Connection) -> Result<Option<u32>, Problem> {
     let version: i64 = connection.pragma_query_value(None, "user_version", |row| row.get(0))?;
     Ok(u32::try_from(version).ok().filter(|&version| version > 0))
 }
 
 /// A number of matches.
-fn count(row: &Row, column: usize) -> Result<u32, DatabaseError> {
+fn count(row: &Row, column: usize) -> Result<u32, Problem> {
     let count: Option<i64> = row.get(column)?;
     u32::try_from(count.unwrap_or(0))
-        .map_err(|_| DatabaseError::Damaged(format!("a pair has {} matches", count.unwrap_or(0))))
+        .map_err(|_| error::damaged(format!("a pair has {} matches", count.unwrap_or(0))))
 }
 
 /// Whether a relative pose is stored: a quaternion that is not zero, and a translation.
-fn has_pose(row: &Row) -> Result<bool, DatabaseError> {
-    let blob = |column| -> Result<Option<Vec<u8>>, DatabaseError> {
+fn has_pose(row: &Row) -> Result<bool, Problem> {
+    let blob = |column| -> Result<Option<Vec<u8>>, Problem> {
         Ok(row
             .get_ref(column)?
             .as_blob_or_null()
-            .map_err(|_| DatabaseError::Damaged("a relative pose is not stored as bytes".into()))?
+            .map_err(|_| error::damaged("a relative pose is not stored as bytes"))?
             .map(<[u8]>::to_vec))
     };
     // COLMAP 3.8 writes zeros, some of them negative, where there is no pose.

@@ -1,15 +1,17 @@
 //! Where images were taken, by the pose priors of a database: to find neighbours, and, where it is
 //! asked for, as known positions.
 
+use super::error;
+use crate::error::Problem;
 use std::collections::HashMap;
 use std::path::Path;
 
 use rusqlite::Connection;
 use rusqlite::types::ValueRef;
 
+use super::PosePriors;
 use super::open::Opened;
 use super::tables::{columns, images};
-use super::{DatabaseError, PosePriors};
 
 /// COLMAP's number of a system that is not said (`PosePrior::CoordinateSystem::UNDEFINED`).
 const UNDEFINED: i64 = -1;
@@ -38,7 +40,7 @@ struct Prior {
 }
 
 /// The pose priors of images; none in a database that has no table for them. O(images).
-fn priors(connection: &Connection) -> Result<Vec<Prior>, DatabaseError> {
+fn priors(connection: &Connection) -> Result<Vec<Prior>, Problem> {
     let present = columns(connection, "pose_priors")?;
     let has = |column: &str| present.iter().any(|name| name == column);
     if !has("position") || !has("coordinate_system") {
@@ -84,7 +86,7 @@ fn priors(connection: &Connection) -> Result<Vec<Prior>, DatabaseError> {
 pub(super) fn read(
     connection: &Connection,
     nodes: &HashMap<i64, u32>,
-) -> Result<Vec<Option<[f64; 3]>>, DatabaseError> {
+) -> Result<Vec<Option<[f64; 3]>>, Problem> {
     let mut positions = vec![None; nodes.len()];
     let mut any = false;
     for prior in priors(connection)? {
@@ -107,7 +109,7 @@ pub(super) fn read(
 /// # Errors
 /// A database that cannot be read; positions that are none, systems that are mixed or not known, as
 /// COLMAP refuses them or cannot read them.
-pub(crate) fn pose_priors(path: &Path) -> Result<PosePriors, DatabaseError> {
+pub(crate) fn pose_priors(path: &Path) -> Result<PosePriors, Problem> {
     let opened = Opened::new(path)?;
     let (names, nodes) = images(&opened.connection)?;
     let mut read = PosePriors::default();
@@ -117,9 +119,11 @@ pub(crate) fn pose_priors(path: &Path) -> Result<PosePriors, DatabaseError> {
             continue;
         };
         let name = &names[node as usize];
-        let wrong = |why: &str| DatabaseError::PosePrior {
-            image: name.to_string(),
-            why: why.to_owned(),
+        let wrong = |why: &str| {
+            error::database(
+                format!("the position of the image {name} {why}"),
+                "write the pose priors again, all in one system of coordinates, or write the cameras whose position is known into a file, `position` before each",
+            )
         };
         if !(UNDEFINED..=CARTESIAN).contains(&prior.system) {
             return Err(wrong("has a coordinate system that COLMAP does not have"));

@@ -1,6 +1,7 @@
 //! What a database holds of cameras, images, keypoints and verified pairs, as it is stored: for whoever
 //! checks numbers himself (docs/contradictions.md, section 5).
 
+use super::error;
 use std::fs::File;
 use std::path::Path;
 
@@ -9,11 +10,10 @@ use rusqlite::types::ValueRef;
 use sha2::{Digest, Sha256};
 use viewcert::certificate::hex;
 
-use super::DatabaseError;
 use super::open::Opened;
 use super::tables::columns;
 use crate::ReadError;
-use crate::error::Place;
+use crate::error::{Fault, Problem};
 
 /// A row: its numbers, and its texts and blobs, each in the order of the columns; NULL is an empty blob.
 pub type RawRow = (Vec<i64>, Vec<Vec<u8>>);
@@ -39,19 +39,19 @@ const TABLES: [(&str, &[&str]); 4] = [
 pub fn raw_tables(path: &Path) -> Result<[Vec<RawRow>; 4], ReadError> {
     let read = || {
         // SQLite's own words about a file that is not there say less.
-        File::open(path).map_err(|error| DatabaseError::Other(error.to_string()))?;
+        File::open(path).map_err(|error| error::other(error.to_string()))?;
         let opened = Opened::new(path)?;
         let tables = read_tables(&opened.connection)?;
         opened.finish()?;
         Ok(tables)
     };
-    read().map_err(|error: DatabaseError| {
+    read().map_err(|error: Problem| {
         let name = path.display().to_string();
-        Place::Input.fault(error.into()).in_file(&name)
+        Fault::from(error).in_file(&name)
     })
 }
 
-fn read_tables(connection: &Connection) -> Result<[Vec<RawRow>; 4], DatabaseError> {
+fn read_tables(connection: &Connection) -> Result<[Vec<RawRow>; 4], Problem> {
     let mut tables = [const { Vec::new() }; 4];
     for (rows, table) in tables.iter_mut().zip(TABLES) {
         *rows = read_table(connection, table)?;
@@ -63,7 +63,7 @@ fn read_tables(connection: &Connection) -> Result<[Vec<RawRow>; 4], DatabaseErro
 ///
 /// # Errors
 /// As of [`raw_tables`].
-pub(super) fn hash(connection: &Connection) -> Result<String, DatabaseError> {
+pub(super) fn hash(connection: &Connection) -> Result<String, Problem> {
     let mut hash = Sha256::new();
     hash.update(b"viewcert database 1\n");
     for rows in read_tables(connection)? {
@@ -84,7 +84,7 @@ pub(super) fn hash(connection: &Connection) -> Result<String, DatabaseError> {
 fn read_table(
     connection: &Connection,
     (table, names): (&str, &[&str]),
-) -> Result<Vec<RawRow>, DatabaseError> {
+) -> Result<Vec<RawRow>, Problem> {
     let present = columns(connection, table)?;
     if present.is_empty() && table == "keypoints" {
         return Ok(Vec::new());
@@ -97,7 +97,7 @@ fn read_table(
             false if matches!(name, "E" | "qvec" | "tvec") => chosen.push("null"),
             false => {
                 let missing = format!("its table `{table}` has no column `{name}`");
-                return Err(DatabaseError::NotColmap(missing));
+                return Err(error::not_colmap(missing));
             }
         }
     }
@@ -120,7 +120,7 @@ fn read_table(
                 ValueRef::Null if is_blob => blobs.push(Vec::new()),
                 _ => {
                     let wrong = format!("`{name}` of `{table}` is of another type");
-                    return Err(DatabaseError::Damaged(wrong));
+                    return Err(error::damaged(wrong));
                 }
             }
         }

@@ -1,11 +1,12 @@
 //! The rigs and frames of a database of COLMAP 3.12 and later.
 
+use super::error;
+use crate::error::Problem;
 use std::collections::{BTreeMap, HashMap};
 
 use rusqlite::Connection;
 use rusqlite::types::ValueRef;
 
-use super::DatabaseError;
 use super::tables::columns;
 use crate::tracks::{Frame, Frames, Pose, Rig, read_frames};
 
@@ -24,18 +25,18 @@ pub(super) fn read(
     connection: &Connection,
     names: &[Box<str>],
     nodes: &HashMap<i64, u32>,
-) -> Result<Option<Frames>, DatabaseError> {
+) -> Result<Option<Frames>, Problem> {
     for table in ["rigs", "rig_sensors", "frames", "frame_data"] {
         if columns(connection, table)?.is_empty() {
             return Ok(None);
         }
     }
     let (rigs, frames) = (rigs(connection)?, frames(connection, nodes)?);
-    let frames = read_frames(&rigs, &frames, names).map_err(DatabaseError::Rigs)?;
+    let frames = read_frames(&rigs, &frames, names).map_err(error::rigs)?;
     Ok(Some(frames))
 }
 
-fn rigs(connection: &Connection) -> Result<BTreeMap<i64, Rig>, DatabaseError> {
+fn rigs(connection: &Connection) -> Result<BTreeMap<i64, Rig>, Problem> {
     let reference = Pose {
         rotation: [0.0, 0.0, 0.0, 1.0],
         translation: [0.0; 3],
@@ -57,7 +58,7 @@ fn rigs(connection: &Connection) -> Result<BTreeMap<i64, Rig>, DatabaseError> {
         let (id, sensor): (i64, i64) = (row.get(0)?, row.get(1)?);
         let Some(rig) = rigs.get_mut(&id) else {
             let why = format!("sensor {sensor} is of rig {id}, which is not there");
-            return Err(DatabaseError::Rigs(why));
+            return Err(error::rigs(why));
         };
         if row.get::<_, i64>(2)? != CAMERA {
             continue;
@@ -67,12 +68,12 @@ fn rigs(connection: &Connection) -> Result<BTreeMap<i64, Rig>, DatabaseError> {
             ValueRef::Blob(bytes) if bytes.len() == POSE => Some(pose(bytes)),
             _ => {
                 let why = format!("the pose of sensor {sensor} in rig {id} is not seven numbers");
-                return Err(DatabaseError::Rigs(why));
+                return Err(error::rigs(why));
             }
         };
         if rig.sensors.insert(sensor, pose).is_some() {
             let why = format!("rig {id} has sensor {sensor} twice");
-            return Err(DatabaseError::Rigs(why));
+            return Err(error::rigs(why));
         }
     }
     Ok(rigs)
@@ -89,7 +90,7 @@ fn pose(bytes: &[u8]) -> Pose {
 }
 
 /// The frames, of which what is no image of the table of images is left out.
-fn frames(connection: &Connection, nodes: &HashMap<i64, u32>) -> Result<Vec<Frame>, DatabaseError> {
+fn frames(connection: &Connection, nodes: &HashMap<i64, u32>) -> Result<Vec<Frame>, Problem> {
     let mut frames: BTreeMap<i64, Frame> = BTreeMap::new();
     let mut statement = connection.prepare("select frame_id, rig_id from frames")?;
     let mut rows = statement.query([])?;
@@ -105,7 +106,7 @@ fn frames(connection: &Connection, nodes: &HashMap<i64, u32>) -> Result<Vec<Fram
         let (id, image): (i64, i64) = (row.get(0)?, row.get(1)?);
         let Some(frame) = frames.get_mut(&id) else {
             let why = format!("image {image} is of frame {id}, which is not there");
-            return Err(DatabaseError::Rigs(why));
+            return Err(error::rigs(why));
         };
         if let Some(&node) = nodes.get(&image)
             && row.get::<_, i64>(3)? == CAMERA

@@ -1,5 +1,6 @@
 //! What is said of a database: its summary, and what was chosen and left out.
 
+use crate::error::{Kind, Problem};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use rusqlite::Connection;
@@ -7,7 +8,7 @@ use rusqlite::Connection;
 use super::focal::{of_cameras, of_images};
 use super::keypoints;
 use super::pairs::Tables;
-use super::{Bin, ConfigCount, DatabaseError, DatabaseFacts, Focal, Pipeline};
+use super::{Bin, ConfigCount, DatabaseFacts, Focal, Pipeline};
 use viewcert::graph::{Graph, UnionFind};
 use viewcert::wording::counted;
 
@@ -21,13 +22,13 @@ impl Tables {
         connection: &Connection,
         graph: &Graph,
         positions: usize,
-    ) -> Result<DatabaseFacts, DatabaseError> {
+    ) -> Result<DatabaseFacts, Problem> {
         let paired: BTreeSet<u32> = graph.edges().iter().flat_map(|&(a, b)| [a, b]).collect();
         let number_paired = paired.len();
         let [focal_guessed, focal_shared, all] = guesses(connection, &self.nodes, &paired)?;
         let keypoints = match keypoints::counts(connection, &self.names, &self.nodes) {
             // Who asks for tracks hears of it.
-            Err(DatabaseError::Keypoints { .. }) => None,
+            Err(problem) if problem.kind == Kind::Keypoints => None,
             counts => counts?,
         };
         let has_none = |&image: &u32| {
@@ -169,7 +170,7 @@ pub(super) fn guesses(
     connection: &Connection,
     nodes: &HashMap<i64, u32>,
     paired: &BTreeSet<u32>,
-) -> Result<[usize; 3], DatabaseError> {
+) -> Result<[usize; 3], Problem> {
     let (Some(known), Some(cameras)) = (of_cameras(connection)?, of_images(connection, nodes)?)
     else {
         return Ok([0; 3]);

@@ -1,16 +1,15 @@
 //! The matches of a database, joined to tracks.
 
-use std::collections::HashMap;
-
 use rusqlite::Connection;
 use rusqlite::types::ValueRef;
 
-use super::doubles::doubles;
+use super::error;
 use super::keypoints::Keypoints;
-use super::tables::{NoPair, PAIR_FACTOR, columns, ends};
-use super::{DatabaseError, FeatureTracks, ImageTracks};
+use super::pairs::Tables;
+use super::tables::{NoPair, PAIR_FACTOR, ends, has};
+use super::{FeatureTracks, ImageTracks};
 use crate::NamedGraph;
-use crate::error::{Fault, Place, Problem};
+use crate::error::{Fault, Kind, Problem};
 use crate::tracks::{Frames, Joined, TrackGraph, TrackOptions};
 use viewcert::graph::Graph;
 
@@ -25,41 +24,31 @@ const MATCH: usize = 8;
 /// Lists of matches that are missing or damaged; damaged keypoints.
 pub(super) fn read(
     connection: &Connection,
-    table: &str,
-    names: &[Box<str>],
-    nodes: &HashMap<i64, u32>,
+    tables: &Tables,
     pairs: &Graph,
     frames: Option<Frames>,
     options: TrackOptions,
 ) -> Result<NamedGraph, Fault> {
-    let input = |problem: Problem| Place::Input.fault(problem);
-    let keypoints = Keypoints::new(connection, names, nodes, options.max_spread);
-    let mut keypoints = keypoints.map_err(|error| input(error.into()))?;
-    let mut joined = Joined::new(names.len());
-    let beyond = each_match(
-        (connection, table),
-        names,
-        nodes,
-        pairs,
-        &keypoints,
-        |a, b| joined.join(a, b),
-    );
-    let beyond = beyond.map_err(input)?;
-    let mut graph = TrackGraph::new(names.to_vec(), options)?;
+    let keypoints = Keypoints::new(connection, &tables.names, &tables.nodes, options.max_spread);
+    let mut keypoints = keypoints?;
+    let mut joined = Joined::new(tables.names.len());
+    let beyond = each_match(connection, tables, pairs, &keypoints, |a, b| {
+        joined.join(a, b)
+    });
+    let beyond = beyond?;
+    let mut graph = TrackGraph::new(tables.names.clone(), options)?;
     graph.set_spread(options.max_spread);
     if let Some(frames) = frames {
         graph.set_frames(frames);
     }
-    let order: Vec<u32> = (0..names.len() as u32).collect();
-    joined
-        .tracks(&order, Some(&mut keypoints), &mut graph)
-        .map_err(input)?;
+    let order: Vec<u32> = (0..tables.names.len() as u32).collect();
+    joined.tracks(&order, Some(&mut keypoints), &mut graph)?;
     let unknown = keypoints.unknown();
     if unknown.is_some() {
         graph.set_places_missing();
     }
-    let mut graph = graph.finish().map_err(|fault| match fault.problem {
-        Problem::NoPoints { .. } => input(DatabaseError::NoTracks(pairs.edges().len()).into()),
+    let mut graph = graph.finish().map_err(|fault| match fault.problem.kind {
+        Kind::NoPoints(_) => no_tracks(pairs.edges().len()).into(),
         _ => fault,
     })?;
     graph.notes.extend(beyond.into_iter().chain(unknown));
@@ -73,22 +62,15 @@ pub(super) fn read(
 /// As of [`read`].
 pub(super) fn of_features(
     connection: &Connection,
-    table: &str,
-    names: &[Box<str>],
-    nodes: &HashMap<i64, u32>,
+    tables: &Tables,
     pairs: &Graph,
 ) -> Result<FeatureTracks, Problem> {
-    let keypoints = Keypoints::new(connection, names, nodes, 0)?;
-    let mut joined = Joined::new(names.len());
-    each_match(
-        (connection, table),
-        names,
-        nodes,
-        pairs,
-        &keypoints,
-        |a, b| joined.join(a, b),
-    )?;
-    let images = (0..).zip(names).zip(joined.of_features());
+    let keypoints = Keypoints::new(connection, &tables.names, &tables.nodes, 0)?;
+    let mut joined = Joined::new(tables.names.len());
+    each_match(connection, tables, pairs, &keypoints, |a, b| {
+        joined.join(a, b)
+    })?;
+    let images = (0..).zip(&tables.names).zip(joined.of_features());
     let images = images.map(|((node, name), tracks)| {
         let features = keypoints.count(node);
         (name.clone(), ImageTracks { features, tracks })
@@ -102,53 +84,67 @@ pub(super) fn of_features(
 /// As of [`read`].
 pub(super) fn matches(
     connection: &Connection,
-    table: &str,
-    names: &[Box<str>],
-    nodes: &HashMap<i64, u32>,
+    tables: &Tables,
     pairs: &Graph,
 ) -> Result<Vec<[(u32, u32); 2]>, Problem> {
-    let keypoints = Keypoints::new(connection, names, nodes, 0)?;
+    let keypoints = Keypoints::new(connection, &tables.names, &tables.nodes, 0)?;
     let mut all = Vec::new();
-    each_match(
-        (connection, table),
-        names,
-        nodes,
-        pairs,
-        &keypoints,
-        |a, b| {
-            all.push([a, b]);
-            Ok(())
-        },
-    )?;
+    each_match(connection, tables, pairs, &keypoints, |a, b| {
+        all.push([a, b]);
+        Ok(())
+    })?;
     Ok(all)
+}
+
+/// Matches were emptied.
+fn no_lists(pairs: usize) -> Problem {
+    Problem::of(
+        Kind::NoLists,
+        format!("{pairs} of the pairs that are used have inliers, but no list of them"),
+        "tracks need the lists: give the database as the matching left it, or decide its pairs, without --tracks (of export: --model projective)",
+    )
+}
+
+/// No match of the pairs that are used counts, or no pair is used.
+fn no_tracks(pairs: usize) -> Problem {
+    match pairs {
+        0 => error::database(
+            "the database has no tracks: no pair has enough inliers to be used",
+            "ask for fewer inliers (--min-inliers; in COLMAP --Mapper.min_num_matches and --GlobalMapper.min_num_matches), or decide its pairs without --tracks",
+        ),
+        _ => error::database(
+            format!("the database has no tracks: {} used", error::are(pairs)),
+            "match the images again: the features that are matched are not in the database",
+        ),
+    }
 }
 
 /// Reads the lists of all pairs that are used. Matches of features that their image does not have
 /// are left out, as COLMAP leaves them out (`CorrespondenceGraph::AddTwoViewGeometry`), and said.
 fn each_match(
-    (connection, table): (&Connection, &str),
-    names: &[Box<str>],
-    nodes: &HashMap<i64, u32>,
+    connection: &Connection,
+    tables: &Tables,
     pairs: &Graph,
     keypoints: &Keypoints,
     mut take: impl FnMut((u32, u32), (u32, u32)) -> Result<(), Problem>,
-) -> Result<Vec<String>, Problem> {
-    let sql = |error: rusqlite::Error| Problem::from(DatabaseError::from(error));
-    if !columns(connection, table)?
-        .iter()
-        .any(|name| name == "data")
-    {
-        return Err(DatabaseError::NoLists(pairs.edges().len()).into());
+) -> Result<Option<String>, Problem> {
+    let Tables {
+        names,
+        nodes,
+        table,
+        ..
+    } = tables;
+    if !has(connection, table, &["data"])? {
+        return Err(no_lists(pairs.edges().len()));
     }
     let mut without = 0;
     let mut beyond = 0;
     let mut first_beyond = None;
-    let mut doubled = 0;
     let query = format!("select pair_id, rows, data from {table}");
-    let mut statement = connection.prepare(&query).map_err(sql)?;
-    let mut rows = statement.query([]).map_err(sql)?;
-    while let Some(row) = rows.next().map_err(sql)? {
-        let pair: i64 = row.get(0).map_err(sql)?;
+    let mut statement = connection.prepare(&query)?;
+    let mut rows = statement.query([])?;
+    while let Some(row) = rows.next()? {
+        let pair: i64 = row.get(0)?;
         let (a, b) = match ends(pair, nodes) {
             Ok((a, b)) if pairs.edge_number(a, b).is_some() => (a, b),
             Ok(_) | Err(NoPair::Dangling | NoPair::Loop) => continue,
@@ -156,8 +152,8 @@ fn each_match(
         // Columns are in the order of the images' numbers, nodes in that of their names.
         let first = nodes.get(&pair.div_euclid(PAIR_FACTOR)).copied();
         let (first, second) = if first == Some(a) { (a, b) } else { (b, a) };
-        let count: i64 = row.get(1).map_err(sql)?;
-        let list = match row.get_ref(2).map_err(sql)? {
+        let count: i64 = row.get(1)?;
+        let list = match row.get_ref(2)? {
             ValueRef::Blob(list) => list,
             _ => &[],
         };
@@ -165,10 +161,10 @@ fn each_match(
             without += 1;
             continue;
         }
-        let damaged = |why: String| DatabaseError::Matches {
-            first: names[first as usize].to_string(),
-            second: names[second as usize].to_string(),
-            why,
+        let damaged = |why: String| {
+            let [first, second] = [first, second].map(|image| &names[image as usize]);
+            let what = format!("the matches of the images {first} and {second} are damaged: {why}");
+            error::database(what, error::AGAIN)
         };
         if usize::try_from(count)
             .ok()
@@ -177,10 +173,9 @@ fn each_match(
         {
             let bytes = list.len();
             let why = format!("{count} matches of two features are not {bytes} bytes");
-            return Err(damaged(why).into());
+            return Err(damaged(why));
         }
         let (matches, _) = list.as_chunks::<MATCH>();
-        doubled += doubles(matches);
         for &[a0, a1, a2, a3, b0, b1, b2, b3] in matches {
             let a = u32::from_le_bytes([a0, a1, a2, a3]);
             let b = u32::from_le_bytes([b0, b1, b2, b3]);
@@ -189,11 +184,11 @@ fn each_match(
                 first_beyond.get_or_insert((first, second));
                 continue;
             }
-            take((first, a), (second, b)).map_err(|problem| damaged(problem.to_string()))?;
+            take((first, a), (second, b)).map_err(|problem| damaged(problem.what))?;
         }
     }
     if without > 0 {
-        return Err(DatabaseError::NoLists(without).into());
+        return Err(no_lists(without));
     }
     let beyond = first_beyond.map(|(first, second): (u32, u32)| {
         let matches = match beyond {
@@ -206,12 +201,5 @@ fn each_match(
              {second}"
         )
     });
-    let doubled = (doubled > 0).then(|| {
-        let matches = match doubled {
-            1 => "1 match stands".to_owned(),
-            count => format!("{count} matches stand"),
-        };
-        format!("{matches} in the list of a pair that has it already, and does not count again")
-    });
-    Ok(beyond.into_iter().chain(doubled).collect())
+    Ok(beyond)
 }

@@ -3,16 +3,18 @@
 //! In: a database that is open. Out: [`TwoViews`] of the pairs that are asked for. Most questions are about a few
 //! pairs of many, and keypoints are most of a database; so what is read once is an index of images.
 
+use crate::error::Problem;
 use std::collections::HashMap;
 use std::f64::consts::{PI, TAU};
 
 use rusqlite::types::ValueRef;
 use rusqlite::{Connection, OptionalExtension, Row, params};
 
+use super::TwoViews;
 use super::focal::SPHERICAL;
+use super::keypoints::{COLUMNS, places};
 use super::motion::motion;
-use super::tables::{PAIR_FACTOR, columns};
-use super::{DatabaseError, TwoViews};
+use super::tables::{PAIR_FACTOR, columns, has};
 use crate::motions::{Measured, Unchecked};
 
 /// A database whose pairs are asked for one by one.
@@ -34,8 +36,7 @@ pub struct Views<'a> {
 }
 
 /// Images whose keypoints were read; images are dropped when there are many.
-#[derive(Default)]
-struct Keypoints(HashMap<u32, Vec<[f32; 2]>>);
+type Keypoints = HashMap<u32, Vec<[f32; 2]>>;
 
 /// Most images whose keypoints are kept.
 const KEPT: usize = 256;
@@ -66,18 +67,14 @@ impl<'a> Views<'a> {
         table: &'static str,
         images: usize,
         nodes: &HashMap<i64, u32>,
-    ) -> Result<Self, DatabaseError> {
+    ) -> Result<Self, Problem> {
         let mut ids = vec![0; images];
         for (&id, &node) in nodes {
             ids[node as usize] = id;
         }
         let (mut cameras, mut priors) = (vec![None; images], vec![false; images]);
         let mut plain = vec![false; images];
-        if columns(connection, "cameras")?.len() > 5
-            && columns(connection, "images")?
-                .iter()
-                .any(|c| c == "camera_id")
-        {
+        if columns(connection, "cameras")?.len() > 5 && has(connection, "images", &["camera_id"])? {
             let query = "select image_id, model, params, prior_focal_length from images join cameras \
                          using (camera_id)";
             let mut statement = connection.prepare(query)?;
@@ -93,20 +90,17 @@ impl<'a> Views<'a> {
             }
         }
         let present = columns(connection, table)?;
-        let has = |column: &str| present.iter().any(|name| name == column);
-        let posed = has("qvec") && has("tvec");
-        let of_keypoints = columns(connection, "keypoints")?;
-        let keypoints = ["image_id", "rows", "cols", "data"]
-            .iter()
-            .all(|column| of_keypoints.iter().any(|name| name == column));
+        let is_there = |column: &str| present.iter().any(|name| name == column);
+        let posed = is_there("qvec") && is_there("tvec");
+        let keypoints = has(connection, "keypoints", &COLUMNS)?;
         Ok(Self {
             table,
             ids,
             cameras,
             priors,
             plain,
-            has: [has("E"), has("F"), posed],
-            has_config: has("config"),
+            has: [is_there("E"), is_there("F"), posed],
+            has_config: is_there("config"),
             keypoints: keypoints.then(Keypoints::default),
             connection,
         })
@@ -124,7 +118,7 @@ impl<'a> Views<'a> {
     ///
     /// # Errors
     /// As of [`Self::two`].
-    pub(super) fn motion(&mut self, a: u32, b: u32) -> Result<Measured, DatabaseError> {
+    pub(super) fn motion(&mut self, a: u32, b: u32) -> Result<Measured, Problem> {
         let both = [a, b].map(|image| image as usize);
         let [priors, plain] =
             [&self.priors, &self.plain].map(|all| both.iter().all(|&image| all[image]));
@@ -142,7 +136,7 @@ impl<'a> Views<'a> {
     ///
     /// # Panics
     /// If there is no such image.
-    pub fn two(&mut self, a: u32, b: u32) -> Result<Option<TwoViews>, DatabaseError> {
+    pub fn two(&mut self, a: u32, b: u32) -> Result<Option<TwoViews>, Problem> {
         let mut images = [a, b];
         images.sort_unstable_by_key(|&image| self.ids[image as usize]);
         let [first, second] = images.map(|image| self.ids[image as usize]);
@@ -216,9 +210,9 @@ impl<'a> Views<'a> {
         if let [Some(one), Some(two)] = cameras
             && let Some(mut cache) = self.keypoints.take()
         {
-            let read = cache.read(self, images);
-            let points = read.map(|()| cache.of(images));
-            if let Ok([x, y]) = points {
+            let read = self.read_keypoints(&mut cache, images);
+            let of = |image| cache.get(&image).map_or(&[][..], Vec::as_slice);
+            if let (Ok(()), [x, y]) = (read, images.map(of)) {
                 let (matches, _) = list.as_chunks::<8>();
                 for &[a0, a1, a2, a3, b0, b1, b2, b3] in matches {
                     let a = u32::from_le_bytes([a0, a1, a2, a3]) as usize;
@@ -232,38 +226,19 @@ impl<'a> Views<'a> {
         }
         Ok(Some(found))
     }
-}
 
-impl Keypoints {
-    /// Reads the keypoints of two images, unless they are there.
-    fn read(&mut self, views: &Views, images: [u32; 2]) -> Result<(), DatabaseError> {
-        if self.0.len() > KEPT {
-            self.0.clear();
+    /// Reads the keypoints of two images, unless they are there. A list that is damaged holds none that we could name.
+    fn read_keypoints(&self, cache: &mut Keypoints, images: [u32; 2]) -> Result<(), Problem> {
+        if cache.len() > KEPT {
+            cache.clear();
         }
         for image in images {
-            if self.0.contains_key(&image) {
-                continue;
+            if !cache.contains_key(&image) {
+                let found = places(self.connection, self.ids[image as usize])?;
+                cache.insert(image, found.ok().flatten().unwrap_or_default());
             }
-            let query = "select cols, data, rows from keypoints where image_id = ?";
-            let mut statement = views.connection.prepare_cached(query)?;
-            let read = |row: &Row| {
-                let columns: Option<u32> = row.get(0)?;
-                let data = row.get_ref(1)?.as_blob().unwrap_or(&[]);
-                let (columns, rows) =
-                    (columns.unwrap_or(0) as usize, row.get::<_, Option<u32>>(2)?);
-                // A list that is not as long as it says holds no keypoint that we could name.
-                let fits = 4 * columns * rows.unwrap_or(0) as usize == data.len();
-                Ok(points(columns, if fits { data } else { &[] }))
-            };
-            let id = views.ids[image as usize];
-            let found = statement.query_row(params![id], read).optional()?;
-            self.0.insert(image, found.unwrap_or_default());
         }
         Ok(())
-    }
-
-    fn of(&self, images: [u32; 2]) -> [&[[f32; 2]]; 2] {
-        images.map(|image| self.0.get(&image).map_or(&[][..], Vec::as_slice))
     }
 }
 
@@ -286,7 +261,7 @@ impl Camera {
 }
 
 /// The camera of a row, unless its model is that of a fisheye, or a number is missing.
-fn camera(row: &Row) -> Result<Option<Camera>, DatabaseError> {
+fn camera(row: &Row) -> Result<Option<Camera>, Problem> {
     let model: i64 = row.get(1)?;
     let parameters = doubles(row.get_ref(2)?);
     let numbers = match (model, &parameters[..]) {
@@ -310,7 +285,7 @@ fn camera(row: &Row) -> Result<Option<Camera>, DatabaseError> {
 }
 
 /// Whether a camera has a model with a plane, all its parameters, and no distortion.
-fn is_plain(row: &Row) -> Result<bool, DatabaseError> {
+fn is_plain(row: &Row) -> Result<bool, Problem> {
     // Focal lengths, and parameters in all.
     let (focal, all) = match row.get(1)? {
         0i64 => (1, 3),
@@ -362,15 +337,4 @@ fn essential(f: &[[f64; 3]; 3], one: &Plane, two: &Plane) -> [[f64; 3]; 3] {
             terms.map(|(a, b)| k2[a][i] * f[a][b] * k1[b][j]).sum()
         })
     })
-}
-
-/// x and y of every keypoint: the first two of so many columns.
-fn points(columns: usize, data: &[u8]) -> Vec<[f32; 2]> {
-    if columns < 2 {
-        return Vec::new();
-    }
-    let number = |bytes: &[u8]| f32::from_le_bytes(bytes.try_into().expect("four bytes"));
-    let rows = data.chunks_exact(4 * columns);
-    rows.map(|row| [number(&row[..4]), number(&row[4..8])])
-        .collect()
 }

@@ -4,11 +4,10 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use crate::edge_list::PAIR_LIMIT;
 use crate::edge_list::columns::ListOptions;
-use crate::edge_list::nodes::Index;
+use crate::edge_list::nodes::{self, Index};
 use crate::edge_list::refusal::shown;
-use crate::error::{Fault, Place, Problem};
+use crate::error::{Fault, Problem};
 use crate::read_as::{Parsed, ReadAs};
-use viewcert::graph::{Graph, GraphError};
 use viewcert::wording::counted;
 
 /// How many names of what is ignored a note holds.
@@ -21,7 +20,6 @@ pub(crate) struct Collected {
     pairs: Vec<(u32, u32)>,
     /// Of every node, whether it is listed as such and not only the end of a pair.
     listed: Vec<bool>,
-    listed_again: usize,
     directed: bool,
     /// Whether pairs of a node with itself are left out, and how many were.
     skip_loops: bool,
@@ -49,22 +47,12 @@ impl Collected {
     /// # Errors
     /// A label that is empty or has control characters; too many nodes.
     pub(crate) fn node(&mut self, label: &str) -> Result<u32, Problem> {
-        if label.is_empty() {
-            return Err(Problem::new(
-                "a camera has an empty name",
-                "give it another name",
-            ));
+        if label.is_empty() || label.chars().any(char::is_control) {
+            let shown = shown(&label.escape_debug().to_string());
+            let what = format!("the name \"{shown}\" is empty, or has a control character");
+            return Err(Problem::new(what, "give it another name"));
         }
-        if label.chars().any(char::is_control) {
-            return Err(Problem::new(
-                format!(
-                    "the name \"{}\" has a control character",
-                    shown(&label.escape_debug().to_string())
-                ),
-                "give it another name",
-            ));
-        }
-        let node = self.index.node(label).ok_or(Problem::TooManyNodes)?;
+        let node = self.index.node(label).ok_or_else(Problem::too_many_nodes)?;
         if node as usize == self.listed.len() {
             self.listed.push(false);
         }
@@ -77,9 +65,7 @@ impl Collected {
     /// Those of [`Collected::node`].
     pub(crate) fn list(&mut self, label: &str) -> Result<u32, Problem> {
         let node = self.node(label)?;
-        let listed = &mut self.listed[node as usize];
-        self.listed_again += usize::from(*listed);
-        *listed = true;
+        self.listed[node as usize] = true;
         Ok(node)
     }
 
@@ -98,11 +84,11 @@ impl Collected {
             return Ok(());
         }
         if a == b {
-            let label = self.index.labels().swap_remove(a as usize);
-            return Err(Problem::SelfLoop(label.into()));
+            let label = self.index.labels()[a as usize];
+            return Err(Problem::self_loop(label));
         }
         if self.pairs.len() >= PAIR_LIMIT {
-            return Err(Problem::TooManyPairs);
+            return Err(Problem::too_many_pairs());
         }
         self.pairs.push((a, b));
         Ok(())
@@ -115,16 +101,12 @@ impl Collected {
 
     /// An attribute, or the like, that is of no concern.
     pub(crate) fn ignore(&mut self, name: &str) {
-        if !self.ignored.contains(name) {
-            self.ignored.insert(name.to_owned());
-        }
+        self.ignored.insert(name.to_owned());
     }
 
-    /// What an attribute, one of [`NAMES`], calls a node.
-    pub(super) fn name(&mut self, attribute: &str, node: u32, name: String) {
-        if let Some(at) = NAMES.iter().position(|known| *known == attribute) {
-            self.names[at].insert(node, name);
-        }
+    /// What the attribute at a place of [`NAMES`] calls a node.
+    pub(super) fn name(&mut self, at: usize, node: u32, name: &str) {
+        self.names[at].insert(node, name.to_owned());
     }
 
     /// Calls nodes by the first attribute that names them all, and each differently.
@@ -138,19 +120,21 @@ impl Collected {
                 self.ignore(attribute);
                 continue;
             }
-            match self.index_of(&names) {
-                Ok(nodes) if nodes == self.index.nodes => renamed = true,
+            let note = match self.index_of(&names) {
                 Ok(nodes) => {
-                    let note =
-                        format!("nodes are called by their `{attribute}`, and not by their ids");
-                    self.notes.push(note);
-                    self.index.nodes = nodes;
                     renamed = true;
+                    let is_same = nodes == self.index.nodes;
+                    self.index.nodes = nodes;
+                    if is_same {
+                        continue;
+                    }
+                    format!("nodes are called by their `{attribute}`, and not by their ids")
                 }
-                Err(why) => self.notes.push(format!(
-                    "nodes are called by their ids, and not by their `{attribute}`: {why}"
-                )),
-            }
+                Err(why) => {
+                    format!("nodes are called by their ids, and not by their `{attribute}`: {why}")
+                }
+            };
+            self.notes.push(note);
         }
     }
 
@@ -166,7 +150,7 @@ impl Collected {
                 return Err("some are empty, or have control characters".to_owned());
             }
             if nodes.insert(name.as_str().into(), node).is_some() {
-                return Err(format!("several are called {}", short(name)));
+                return Err(format!("several are called {}", shown(name)));
             }
         }
         Ok(nodes)
@@ -178,57 +162,43 @@ impl Collected {
     /// If there are no nodes.
     pub(crate) fn finish(mut self) -> Result<Parsed, Fault> {
         self.rename();
-        let fault = |problem| Place::Input.fault(problem);
-        let Self {
-            index,
-            mut pairs,
-            listed,
-            listed_again,
-            directed,
-            skip_loops: _,
-            loops,
-            ignored,
-            mut notes,
-            names: _,
-        } = self;
-        if listed.is_empty() {
-            return Err(fault(Problem::NoNodes));
+        if self.listed.is_empty() {
+            return Err(Problem::no_nodes().into());
         }
-        let (labels, nodes) = index.sort(&mut pairs);
-        let nodes = u32::try_from(nodes).map_err(|_| fault(Problem::TooManyNodes))?;
-        // Neither refusal happens: pairs were refused one by one, and all ends were numbered.
-        let (graph, merged) = Graph::from_pairs(nodes, pairs).map_err(|error| match error {
-            GraphError::SelfLoop(node) => fault(Problem::SelfLoop(labels.label(node).into())),
-            GraphError::OutOfRange { .. } => fault(Problem::TooManyNodes),
-        })?;
+        let (mut pairs, mut notes) = (self.pairs, self.notes);
+        let (labels, nodes) = self.index.sort(&mut pairs);
+        let (graph, merged) = nodes::graph(pairs, (&labels, nodes))?;
         let mut read = ReadAs {
             merged,
             ..ReadAs::default()
         };
-        if directed {
+        if self.directed {
             read.ignored.push("directions".to_owned());
             notes.push("the graph is directed, and directions are ignored".to_owned());
         }
-        if !ignored.is_empty() {
-            let names = names(&ignored);
+        if !self.ignored.is_empty() {
+            let short = self.ignored.iter().take(MOST_NAMES);
+            let short = short.map(|name| shown(&name.escape_debug().to_string()));
+            let mut names = short.collect::<Vec<_>>().join(", ");
+            if let more @ 1.. = self.ignored.len().saturating_sub(MOST_NAMES) {
+                names += &format!(" and {more} more");
+            }
             read.ignored.push(format!("attributes ({names})"));
             notes.push(format!("attributes are ignored: {names}"));
         }
-        if loops > 0 {
-            let pairs = counted(loops, "pair");
+        if self.loops > 0 {
+            let pairs = counted(self.loops, "pair");
             read.ignored
                 .push(format!("{pairs} of a camera with itself"));
         }
-        let only_in_pairs = listed.iter().filter(|listed| !**listed).count();
-        if only_in_pairs > 0 && only_in_pairs < listed.len() {
-            let (nodes, are) = (counted(only_in_pairs, "node"), are(only_in_pairs));
+        let listed = self.listed.iter().filter(|listed| **listed).count();
+        let others = self.listed.len() - listed;
+        if others > 0 && listed > 0 {
+            let are = if others == 1 { "is" } else { "are" };
+            let nodes = counted(others, "node");
             notes.push(format!(
                 "{nodes} {are} in pairs and not in the list of nodes"
             ));
-        }
-        if listed_again > 0 {
-            let (nodes, are) = (counted(listed_again, "node"), are(listed_again));
-            notes.push(format!("{nodes} {are} listed again, and merged"));
         }
         notes.extend(crate::merged(merged));
         Ok(Parsed {
@@ -238,32 +208,4 @@ impl Collected {
             notes,
         })
     }
-}
-
-fn are(count: usize) -> &'static str {
-    if count == 1 { "is" } else { "are" }
-}
-
-/// The first names of a set.
-fn names(set: &BTreeSet<String>) -> String {
-    let shown: Vec<String> = set
-        .iter()
-        .take(MOST_NAMES)
-        .map(|name| short(name))
-        .collect();
-    let shown = shown.join(", ");
-    match set.len().checked_sub(MOST_NAMES) {
-        None | Some(0) => shown,
-        Some(more) => format!("{shown} and {more} more"),
-    }
-}
-
-/// A name in a note: without control characters, and not long.
-fn short(name: &str) -> String {
-    const MOST: usize = 40;
-    let mut shown: String = name.escape_debug().take(MOST).collect();
-    if name.chars().count() > MOST {
-        shown.push_str("...");
-    }
-    shown
 }

@@ -12,6 +12,7 @@ use crate::documents::collected::Collected;
 use crate::documents::malformed;
 use crate::edge_list::columns::ListOptions;
 use crate::edge_list::fields::integer;
+use crate::edge_list::refusal::shown;
 use crate::error::{Fault, Place, Problem};
 use crate::read_as::Parsed;
 use viewcert::wording::counted;
@@ -95,20 +96,10 @@ pub(super) fn read(text: &str, options: &ListOptions) -> Result<Parsed, Fault> {
         return Err(Place::Line(*number).fault(malformed(FORMAT, what)));
     }
     for (tag, count) in ignored.iter().take(MOST_TAGS) {
-        let (lines, are) = (
-            counted(*count, "line"),
-            if *count == 1 { "is" } else { "are" },
-        );
-        collected.notes.push(format!(
-            "{lines} {} {are} ignored: no poses, or unknown",
-            shown(tag)
-        ));
-    }
-    if ignored.len() > MOST_TAGS {
-        let more = counted(ignored.len() - MOST_TAGS, "tag");
-        collected
-            .notes
-            .push(format!("lines of {more} more are ignored"));
+        let are = if *count == 1 { "is" } else { "are" };
+        let lines = counted(*count, "line");
+        let note = format!("{lines} {} {are} ignored: no poses, or unknown", shown(tag));
+        collected.notes.push(note);
     }
     collected.finish()
 }
@@ -142,12 +133,4 @@ fn is_tag(word: &str) -> bool {
         && word
             .bytes()
             .all(|b| b.is_ascii_alphanumeric() || matches!(b, b'_' | b':' | b'-'))
-}
-
-/// A word in a message.
-fn shown(word: &str) -> &str {
-    const MOST: usize = 40;
-    word.char_indices()
-        .nth(MOST)
-        .map_or(word, |(end, _)| &word[..end])
 }

@@ -88,9 +88,7 @@ pub(super) fn read_with(
     options: &ListOptions,
 ) -> Result<Parsed, Fault> {
     let mut bytes = Vec::new();
-    input
-        .read_to_end(&mut bytes)
-        .map_err(|error| Place::Input.fault(error.into()))?;
+    input.read_to_end(&mut bytes).map_err(Problem::from)?;
     let text = text(bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(&bytes))?;
     let mut parsed = match document {
         Document::G2o => g2o::read(text, options),
@@ -112,15 +110,12 @@ fn text(bytes: &[u8]) -> Result<&str, Fault> {
         _ => byte.is_ascii_control(),
     });
     if let Some((at, byte)) = odd {
-        let problem = match byte {
-            0 => Problem::Nul,
-            b'\r' => Problem::CarriageReturn,
-            &byte => Problem::Control(byte),
-        };
+        let problem = Problem::control(&[], *byte);
         return Err(Place::Line(line_of(bytes, at)).fault(problem));
     }
-    std::str::from_utf8(bytes)
-        .map_err(|error| Place::Line(line_of(bytes, error.valid_up_to())).fault(Problem::NotUtf8))
+    std::str::from_utf8(bytes).map_err(|error| {
+        Place::Line(line_of(bytes, error.valid_up_to())).fault(Problem::not_utf8())
+    })
 }
 
 /// The number of the line in which a byte stands, from 1.

@@ -7,7 +7,7 @@ use crate::documents::collected::Collected;
 use crate::documents::malformed;
 use crate::edge_list::columns::ListOptions;
 use crate::edge_list::fields::{integer, is_number};
-use crate::error::{Fault, Place, Problem};
+use crate::error::{Fault, Place};
 use crate::read_as::Parsed;
 use viewcert::wording::counted;
 
@@ -38,21 +38,20 @@ pub(super) fn pose_graph(text: &str, options: &ListOptions) -> Result<Parsed, Fa
         let problem = malformed("pose graph of Open3D", error.to_string());
         Place::Line(error.line() as u64).fault(problem)
     })?;
-    let input = |problem: Problem| Place::Input.fault(problem);
     let mut collected = Collected::new(options);
     for node in 0..found.nodes.len() {
-        collected.list(&node.to_string()).map_err(input)?;
+        collected.list(&node.to_string())?;
     }
     for edge in &found.edges {
         let end = |node: usize| match collected.find(&node.to_string()) {
             Some(node) => Ok(node),
             None => {
                 let what = format!("an edge ends at node {node}, which there is not");
-                Err(input(malformed("pose graph of Open3D", what)))
+                Err(malformed("pose graph of Open3D", what))
             }
         };
         let (a, b) = (end(edge.source_node_id)?, end(edge.target_node_id)?);
-        collected.pair(a, b).map_err(input)?;
+        collected.pair(a, b)?;
     }
     let uncertain = found.edges.iter().filter(|edge| edge.uncertain).count();
     if uncertain > 0 {

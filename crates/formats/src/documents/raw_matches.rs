@@ -34,7 +34,8 @@ fn line(text: &str) -> Option<Line<'_>> {
 }
 
 /// Whether a text that begins like this has both kinds of lines and nothing else, begins with names, and
-/// is sure to be such a list.
+/// is sure to be such a list: all names are those of images, or every block but the last ends with a blank
+/// line and none has one within.
 pub(super) fn is_raw(head: &str, whole: bool) -> bool {
     let end = if whole {
         Some(head.len())
@@ -42,38 +43,26 @@ pub(super) fn is_raw(head: &str, whole: bool) -> bool {
         head.rfind('\n')
     };
     let (mut names, mut matches) = (0, 0);
+    let (mut images, mut blocks, mut after_blank) = (true, true, true);
     for text in head[..end.unwrap_or(0)].lines() {
         match line(text) {
             None => return false,
-            Some(Line::Blank) => {}
+            Some(Line::Blank) => after_blank = true,
             Some(Line::Names([a, b])) => {
+                let are_images = is_image(a) && is_image(b);
                 // A single pair above integers is a head, unless it is one of images.
-                names += 1 + usize::from(is_image(a) && is_image(b));
+                names += 1 + usize::from(are_images);
+                images &= are_images;
+                blocks &= std::mem::take(&mut after_blank);
             }
             Some(Line::Match) if names == 0 => return false,
-            Some(Line::Match) => matches += 1,
-        }
-    }
-    names > 1 && matches > 0 && is_sure(&head[..end.unwrap_or(0)])
-}
-
-/// Whether it is sure what the integers are: all names are those of images, or every block but the
-/// last ends with a blank line and none has one within.
-fn is_sure(text: &str) -> bool {
-    let (mut images, mut blocks, mut after_blank) = (true, true, true);
-    for text in text.lines() {
-        match line(text) {
-            Some(Line::Names([a, b])) => {
-                images &= is_image(a) && is_image(b);
-                blocks &= after_blank;
-                after_blank = false;
+            Some(Line::Match) => {
+                matches += 1;
+                blocks &= !after_blank;
             }
-            Some(Line::Match) => blocks &= !after_blank,
-            Some(Line::Blank) => after_blank = true,
-            None => {}
         }
     }
-    images || blocks
+    names > 1 && matches > 0 && (images || blocks)
 }
 
 /// Reads the pairs of images with a match, or with as many as are asked for.
@@ -101,11 +90,9 @@ pub(super) fn read(text: &str, options: &ListOptions) -> Result<Parsed, Fault> {
         } else if options.weighs_less(matches) {
             light += 1;
         } else {
-            let [a, b] = [
-                collected.node(a).map_err(fault)?,
-                collected.node(b).map_err(fault)?,
-            ];
-            collected.pair(a, b).map_err(fault)?;
+            let ends = collected.node(a).and_then(|a| Ok((a, collected.node(b)?)));
+            let pair = ends.and_then(|(a, b)| collected.pair(a, b));
+            pair.map_err(fault)?;
         }
     }
     let mut parsed = collected.finish()?;
@@ -114,16 +101,13 @@ pub(super) fn read(text: &str, options: &ListOptions) -> Result<Parsed, Fault> {
     if without > 0 {
         let pairs = counted(without, "pair");
         parsed.read.ignored.push(format!("{pairs} without matches"));
-        parsed
-            .notes
-            .push(format!("{pairs} without matches: no edges"));
+        let note = format!("{pairs} without matches: no edges");
+        parsed.notes.push(note);
     }
     if let Some(least) = options.min_weight.as_ref().filter(|_| light > 0) {
         let pairs = counted(light, "pair");
-        parsed
-            .read
-            .ignored
-            .push(format!("{pairs} of fewer than {least} matches"));
+        let few = format!("{pairs} of fewer than {least} matches");
+        parsed.read.ignored.push(few);
     }
     Ok(parsed)
 }

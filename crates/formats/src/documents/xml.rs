@@ -32,74 +32,32 @@ pub(super) fn is_graphml(head: &str) -> bool {
         })
 }
 
-/// An element that is open.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Element {
-    Root,
-    /// A graph.
-    Graph,
-    /// A node or an edge.
-    Member,
-    /// What a node is called: by the attribute of this place in [`NAMES`].
-    Name(usize),
-    /// One whose content is of no concern.
-    Other,
-}
-
 /// Reads a graph.
 pub(super) fn read(text: &str, options: &ListOptions) -> Result<Parsed, Fault> {
     let mut reader = Reader::from_str(text);
+    reader.config_mut().expand_empty_elements = true;
     let mut tree = Tree {
         collected: Collected::new(options),
         ..Tree::default()
     };
     loop {
         let event = reader.read_event();
-        let at = reader.buffer_position() as usize;
-        let fault = |problem| Place::Line(line_of(text.as_bytes(), at)).fault(problem);
-        match event {
-            Err(error) => {
-                let at = reader.error_position() as usize;
-                let place = Place::Line(line_of(text.as_bytes(), at));
-                return Err(place.fault(malformed(GRAPHML, error.to_string())));
-            }
-            Ok(Event::Decl(declaration)) => {
-                let encoding = declaration.encoding().and_then(Result::ok);
-                let ascii = ["utf-8", "utf8", "us-ascii", "ascii"];
-                let known = encoding
-                    .as_deref()
-                    .is_none_or(|name| ascii.iter().any(|known| known.eq_ignore_ascii_case(name)));
-                if !known && !text.is_ascii() {
-                    return Err(fault(Problem::NotUtf8));
-                }
-            }
-            Ok(Event::Start(start)) => {
-                let element = tree.open(&start).map_err(fault)?;
-                tree.path.push(element);
-            }
-            Ok(Event::Empty(start)) => {
-                tree.open(&start).map_err(fault)?;
-            }
-            Ok(Event::End(_)) => tree.close(),
-            Ok(Event::Text(part)) => tree.text(&part.xml_content(XmlVersion::Implicit1_0)),
-            Ok(Event::CData(part)) => tree.text(&part.xml_content(XmlVersion::Implicit1_0)),
-            Ok(Event::GeneralRef(entity)) if tree.is_within_name() => {
-                let named = resolve_xml_entity(&entity).map(str::to_owned);
-                let given = entity.resolve_char_ref().ok().flatten().map(String::from);
-                let what = || malformed(GRAPHML, format!("the entity `{}` is not known", &*entity));
-                let character = named.or(given).ok_or_else(what).map_err(fault)?;
-                tree.text(&character);
-            }
-            Ok(Event::Eof) => break,
-            Ok(_) => {}
+        let at = match &event {
+            Ok(_) => reader.buffer_position(),
+            Err(_) => reader.error_position(),
+        };
+        let place = || Place::Line(line_of(text.as_bytes(), at as usize));
+        let wrong = |error: quick_xml::Error| malformed(GRAPHML, error.to_string());
+        match event.map_err(|error| place().fault(wrong(error)))? {
+            Event::Eof => break,
+            event => tree.take(event, text).map_err(|why| place().fault(why))?,
         }
     }
     if !tree.path.is_empty() {
-        let what = "an element is not closed".to_owned();
-        return Err(Place::Input.fault(Problem::Truncated(what)));
+        return Err(Problem::truncated("an element is not closed").into());
     }
     if !tree.has_graph {
-        return Err(Place::Input.fault(malformed(GRAPHML, "there is no graph")));
+        return Err(malformed(GRAPHML, "there is no graph").into());
     }
     tree.collected.finish()
 }
@@ -107,135 +65,116 @@ pub(super) fn read(text: &str, options: &ListOptions) -> Result<Parsed, Fault> {
 /// What has been read, and where.
 #[derive(Default)]
 struct Tree {
-    path: Vec<Element>,
+    /// The names of the elements that are open.
+    path: Vec<String>,
     collected: Collected,
     /// Keys of data that name nodes, and the places of their attributes in [`NAMES`].
     keys: HashMap<String, usize>,
-    /// The node that is open, and what has been read of its name.
+    /// The node that is open.
     node: Option<u32>,
-    name: String,
-    has_root: bool,
+    /// Within an element that names it, by which attribute, and what has been read of the name.
+    name: Option<(usize, String)>,
     has_graph: bool,
     directed: bool,
 }
 
 impl Tree {
-    /// Takes in an element that begins here.
-    fn open(&mut self, start: &BytesStart) -> Result<Element, Problem> {
-        let name = start.local_name();
-        let malformed = |what: &str| malformed(GRAPHML, what);
-        let element = match (self.path.last(), name.as_ref()) {
-            (None, "graphml") if !self.has_root => {
-                self.has_root = true;
-                Element::Root
+    fn take(&mut self, event: Event, text: &str) -> Result<(), Problem> {
+        match (event, &mut self.name) {
+            (Event::Decl(declaration), _) => {
+                let encoding = declaration.encoding().and_then(Result::ok);
+                let ascii = ["utf-8", "utf8", "us-ascii", "ascii"];
+                let is_known = |name: &str| ascii.iter().any(|it| it.eq_ignore_ascii_case(name));
+                if !encoding.as_deref().is_none_or(is_known) && !text.is_ascii() {
+                    return Err(Problem::not_utf8());
+                }
             }
-            (None, _) => return Err(malformed("the root is not one `graphml`")),
-            (Some(Element::Root), "key") => {
-                self.key(start)?;
-                Element::Other
+            (Event::Start(start), _) => {
+                self.open(&start)?;
+                self.path.push(start.local_name().as_ref().to_owned());
             }
-            (Some(Element::Root), "graph") if self.has_graph => {
-                let what = "a second graph begins here: write each into a file of its own";
-                return Err(malformed(what));
+            (Event::End(_), name) => {
+                if let (Some((at, name)), Some(node)) = (name.take(), self.node) {
+                    self.collected.name(at, node, name.trim());
+                }
+                self.path.pop();
             }
-            (Some(Element::Root), "graph") => {
-                self.has_graph = true;
-                self.directed = attribute(start, "edgedefault")?.as_deref() == Some("directed");
-                Element::Graph
+            (Event::Text(part), Some((_, name))) => {
+                *name += &part.xml_content(XmlVersion::Implicit1_0);
             }
-            (Some(Element::Graph), "node") => {
-                let id = required(start, "id")?;
-                self.node = Some(self.collected.list(&id)?);
-                Element::Member
+            (Event::CData(part), Some((_, name))) => {
+                *name += &part.xml_content(XmlVersion::Implicit1_0);
             }
-            (Some(Element::Graph), "edge") => {
-                self.node = None;
-                self.edge(start)?;
-                Element::Member
+            (Event::GeneralRef(entity), Some((_, name))) => {
+                let given = || entity.resolve_char_ref().ok().flatten().map(String::from);
+                let known = resolve_xml_entity(&entity).map(str::to_owned);
+                let unknown =
+                    || malformed(GRAPHML, format!("the entity `{}` is not known", &*entity));
+                *name += &known.or_else(given).ok_or_else(unknown)?;
             }
-            (Some(Element::Graph), "hyperedge") => {
-                return Err(malformed("edges of more than two ends are not read"));
-            }
-            (Some(Element::Member), "graph") => {
-                return Err(malformed("graphs within nodes are not read"));
-            }
-            (Some(Element::Member), "data") => self.data(start)?,
-            (Some(Element::Member), "port") => {
-                self.collected.ignore(name.as_ref());
-                Element::Other
-            }
-            _ => Element::Other,
-        };
-        Ok(element)
-    }
-
-    /// Takes in a declaration of data, if they name nodes.
-    fn key(&mut self, start: &BytesStart) -> Result<(), Problem> {
-        let of_nodes = matches!(
-            attribute(start, "for")?.as_deref(),
-            None | Some("node" | "all")
-        );
-        let name = attribute(start, "attr.name")?;
-        let at = NAMES
-            .iter()
-            .position(|known| name.as_deref() == Some(known));
-        if let (Some(id), Some(at), true) = (attribute(start, "id")?, at, of_nodes) {
-            self.keys.insert(id, at);
+            _ => {}
         }
         Ok(())
     }
 
-    /// Takes in data, of a node or an edge.
-    fn data(&mut self, start: &BytesStart) -> Result<Element, Problem> {
-        let key = attribute(start, "key")?.unwrap_or_else(|| "data".to_owned());
-        match self.keys.get(&key) {
-            Some(&at) if self.node.is_some() => {
-                self.name.clear();
-                Ok(Element::Name(at))
+    /// Takes in an element that begins here.
+    fn open(&mut self, start: &BytesStart) -> Result<(), Problem> {
+        let refused = |what| Err(malformed(GRAPHML, what));
+        let path: Vec<&str> = self.path.iter().map(String::as_str).collect();
+        match (&path[..], start.local_name().as_ref()) {
+            ([], "graphml") if !self.has_graph => {}
+            ([], _) => return refused("the root is not one `graphml`"),
+            ([_], "key") => self.key(start)?,
+            ([_], "graph") if self.has_graph => {
+                return refused("a second graph begins here: write each into a file of its own");
             }
-            _ => {
-                self.collected.ignore(&key);
-                Ok(Element::Other)
+            ([_], "graph") => {
+                self.has_graph = true;
+                self.directed = attribute(start, "edgedefault")?.as_deref() == Some("directed");
             }
-        }
-    }
-
-    fn is_within_name(&self) -> bool {
-        matches!(self.path.last(), Some(Element::Name(_)))
-    }
-
-    /// A part of the text within an element.
-    fn text(&mut self, part: &str) {
-        if self.is_within_name() {
-            self.name += part;
-        }
-    }
-
-    /// The element that is open ends.
-    fn close(&mut self) {
-        if let (Some(Element::Name(at)), Some(node)) = (self.path.pop(), self.node) {
-            let name = self.name.trim().to_owned();
-            self.collected.name(NAMES[at], node, name);
-        }
-    }
-
-    fn edge(&mut self, start: &BytesStart) -> Result<(), Problem> {
-        let source = required(start, "source")?;
-        let target = required(start, "target")?;
-        let directed = match attribute(start, "directed")? {
-            Some(word) => word == "true",
-            None => self.directed,
-        };
-        if directed {
-            self.collected.directed();
-        }
-        for ignored in ["sourceport", "targetport"] {
-            if attribute(start, ignored)?.is_some() {
-                self.collected.ignore(ignored);
+            ([_, "graph"], "node") => {
+                self.node = Some(self.collected.list(&required(start, "id")?)?);
             }
+            ([_, "graph"], "edge") => {
+                self.node = None;
+                let ends = [required(start, "source")?, required(start, "target")?];
+                if attribute(start, "directed")?.map_or(self.directed, |word| word == "true") {
+                    self.collected.directed();
+                }
+                let (a, b) = (
+                    self.collected.node(&ends[0])?,
+                    self.collected.node(&ends[1])?,
+                );
+                self.collected.pair(a, b)?;
+            }
+            ([_, "graph"], "hyperedge") => {
+                return refused("edges of more than two ends are not read");
+            }
+            ([_, "graph", _], "graph") => return refused("graphs within nodes are not read"),
+            ([_, "graph", _], "data") => {
+                let key = attribute(start, "key")?.unwrap_or_else(|| "data".to_owned());
+                match self.keys.get(&key).filter(|_| self.node.is_some()) {
+                    Some(&at) => self.name = Some((at, String::new())),
+                    None => self.collected.ignore(&key),
+                }
+            }
+            _ => {}
         }
-        let (a, b) = (self.collected.node(&source)?, self.collected.node(&target)?);
-        self.collected.pair(a, b)
+        Ok(())
+    }
+
+    /// Takes in a declaration of data, if they name nodes.
+    fn key(&mut self, start: &BytesStart) -> Result<(), Problem> {
+        let of = attribute(start, "for")?;
+        let name = attribute(start, "attr.name")?;
+        let at = NAMES
+            .iter()
+            .position(|known| name.as_deref() == Some(known));
+        let of_nodes = matches!(of.as_deref(), None | Some("node" | "all"));
+        if let (Some(id), Some(at), true) = (attribute(start, "id")?, at, of_nodes) {
+            self.keys.insert(id, at);
+        }
+        Ok(())
     }
 }
 
@@ -245,10 +184,8 @@ fn attribute(start: &BytesStart, name: &str) -> Result<Option<String>, Problem> 
     for attribute in start.attributes() {
         let attribute = attribute.map_err(|error| wrong(&error))?;
         if attribute.key.as_ref() == name {
-            let value = attribute
-                .normalized_value(XmlVersion::Implicit1_0)
-                .map_err(|error| wrong(&error))?;
-            return Ok(Some(value.into_owned()));
+            let value = attribute.normalized_value(XmlVersion::Implicit1_0);
+            return Ok(Some(value.map_err(|error| wrong(&error))?.into_owned()));
         }
     }
     Ok(None)
@@ -257,8 +194,10 @@ fn attribute(start: &BytesStart, name: &str) -> Result<Option<String>, Problem> 
 fn required(start: &BytesStart, name: &str) -> Result<String, Problem> {
     let missing = || {
         let element = start.local_name();
-        let what = format!("this `{}` has no `{name}`", element.as_ref());
-        malformed(GRAPHML, what)
+        malformed(
+            GRAPHML,
+            format!("this `{}` has no `{name}`", element.as_ref()),
+        )
     };
     attribute(start, name)?.ok_or_else(missing)
 }

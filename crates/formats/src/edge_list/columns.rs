@@ -4,7 +4,6 @@ use std::fmt;
 use std::str::FromStr;
 
 use crate::edge_list::decimal::Decimal;
-use crate::edge_list::fields::integer;
 
 /// Which lines of a list count, and where in them the pairs stand; for everything else a list says so
 /// itself.
@@ -26,21 +25,9 @@ impl ListOptions {
     }
 }
 
-/// The two columns of pairs, and the one of weights if that is not found by its name or place.
+/// The two columns of pairs, and perhaps the one of weights, by their names or their numbers from 1.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Columns {
-    pub(super) ends: [Column; 2],
-    pub(super) weight: Option<Column>,
-}
-
-/// A column, as it is called or counted.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Column {
-    /// By its place from 0.
-    Place(usize),
-    /// By its name in the head.
-    Name(Box<str>),
-}
+pub struct Columns(pub(super) Vec<Box<str>>);
 
 /// No two or three columns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -55,34 +42,12 @@ impl FromStr for Columns {
     type Err = NoColumns;
 
     fn from_str(text: &str) -> Result<Self, NoColumns> {
-        let column = |name: &str| match (name.trim(), integer(name.trim())) {
-            ("", _) | (_, Some(0)) => Err(NoColumns),
-            (_, Some(number)) => usize::try_from(number - 1)
-                .map(Column::Place)
-                .map_err(|_| NoColumns),
-            (name, None) => Ok(Column::Name(name.into())),
-        };
-        let columns: Vec<Column> = text.split(',').map(column).collect::<Result<_, _>>()?;
-        let (ends, weight) = match &columns[..] {
-            [first, second] => ([first, second], None),
-            [first, second, weight] => ([first, second], Some(weight)),
-            _ => return Err(NoColumns),
-        };
-        if ends[0] == ends[1] {
-            return Err(NoColumns);
-        }
-        Ok(Self {
-            ends: ends.map(Column::clone),
-            weight: weight.cloned(),
-        })
-    }
-}
-
-impl fmt::Display for Column {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Place(place) => write!(f, "{}", place + 1),
-            Self::Name(name) => f.write_str(name),
+        let columns: Vec<Box<str>> = text.split(',').map(|name| name.trim().into()).collect();
+        let are_two =
+            matches!(&columns[..], [first, second] | [first, second, _] if first != second);
+        match are_two && !columns.iter().any(|name| ["", "0"].contains(&&**name)) {
+            true => Ok(Self(columns)),
+            false => Err(NoColumns),
         }
     }
 }
@@ -90,10 +55,6 @@ impl fmt::Display for Column {
 /// As [`FromStr`] reads it.
 impl fmt::Display for Columns {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [first, second] = &self.ends;
-        write!(f, "{first},{second}")?;
-        self.weight
-            .iter()
-            .try_for_each(|weight| write!(f, ",{weight}"))
+        f.write_str(&self.0.join(","))
     }
 }

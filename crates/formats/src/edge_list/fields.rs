@@ -7,65 +7,44 @@ use crate::error::Problem;
 /// A field of a line.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Field {
-    /// Where its text begins, behind a quote.
+    /// Where its text begins and ends, within quotes.
     start: usize,
-    /// Where its text ends, before a quote.
     end: usize,
-    /// Whether it stands in quotes.
     pub(crate) quoted: bool,
-    /// Whether quotes within it are doubled.
-    doubled: bool,
 }
 
 impl Field {
-    /// What stands between two places of a line, without quotes.
-    pub(crate) fn plain(start: usize, end: usize) -> Self {
-        Self {
-            start,
-            end,
-            quoted: false,
-            doubled: false,
-        }
-    }
-
     /// What stands there, without the quotes around it.
     pub(crate) fn raw(self, line: &str) -> &str {
         &line[self.start..self.end]
     }
 
-    /// What is meant: quotes within it are single again.
+    /// What is meant: quotes within quotes are single again.
     pub(crate) fn text(self, line: &str) -> Cow<'_, str> {
-        let raw = self.raw(line);
-        if self.doubled {
-            Cow::Owned(raw.replace("\"\"", "\""))
-        } else {
-            Cow::Borrowed(raw)
+        match self.raw(line) {
+            raw if self.quoted && raw.contains('"') => raw.replace("\"\"", "\"").into(),
+            raw => raw.into(),
         }
-    }
-
-    /// Whether it is a number (which is never quoted).
-    pub(crate) fn is_number(self, line: &str) -> bool {
-        !self.quoted && is_number(self.raw(line).as_bytes())
     }
 }
 
-/// Splits a line without control characters into its fields.
+/// Splits a line without control characters into its fields, at blanks, tabs and commas.
 ///
 /// # Errors
 /// A comma without a field on either side, a quote where none belongs.
 pub(crate) fn split(line: &str, fields: &mut Vec<Field>) -> Result<(), Problem> {
-    split_at(line, fields, b" \t,")
+    Separator::Any.split(line, fields)
 }
 
 /// What stands between the fields of a line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Separator {
-    /// Blanks, tabs and commas.
+    /// Blanks and tabs, and between them perhaps a comma.
     #[default]
     Any,
     /// Blanks and tabs.
     Blank,
-    /// This alone.
+    /// This alone: fields may hold blanks, and be empty.
     Byte(u8),
 }
 
@@ -73,152 +52,79 @@ impl Separator {
     /// Splits a line.
     ///
     /// # Errors
-    /// As [`split`] and [`split_by`].
+    /// As [`split`].
     pub(super) fn split(self, line: &str, fields: &mut Vec<Field>) -> Result<(), Problem> {
-        match self {
-            Self::Any => split(line, fields),
-            Self::Blank => split_at(line, fields, b" \t"),
-            Self::Byte(separator) => split_by(line, separator, fields),
-        }
-    }
-}
-
-/// Splits a line at runs of blanks and tabs, and commas if these are among the `separators`.
-fn split_at(line: &str, fields: &mut Vec<Field>, separators: &[u8]) -> Result<(), Problem> {
-    let bytes = line.as_bytes();
-    fields.clear();
-    let mut at = 0;
-    loop {
-        let mut commas = 0;
-        while bytes.get(at).is_some_and(|byte| separators.contains(byte)) {
-            commas += usize::from(bytes[at] == b',');
-            at += 1;
-        }
-        let ends = matches!(bytes.get(at), None | Some(b'#' | b'%'));
-        if commas > 1 || commas == 1 && (ends || fields.is_empty()) {
-            return Err(Problem::EmptyField);
-        }
-        if ends {
+        let bytes = line.as_bytes();
+        let by_blanks = !matches!(self, Self::Byte(_));
+        let is_blank = |b: u8| b == b' ' || b == b'\t' && self != Self::Byte(b'\t');
+        let cuts = |b: u8| b == b',' && self == Self::Any || self == Self::Byte(b);
+        let behind = |at: usize| {
+            let blanks = bytes[at..].iter().take_while(|b| is_blank(**b)).count();
+            (at + blanks, bytes.get(at + blanks).copied())
+        };
+        fields.clear();
+        let (mut at, mut next) = behind(0);
+        if matches!(next, None | Some(b'#' | b'%')) {
             return Ok(());
         }
-        let field = if bytes[at] == b'"' {
-            quoted(bytes, at, None)?
-        } else {
-            let length = bytes[at..]
-                .iter()
-                .position(|b| *b == b'"' || separators.contains(b));
-            let end = length.map_or(bytes.len(), |length| at + length);
-            if bytes.get(end) == Some(&b'"') {
-                return Err(Problem::Quote("stands within a field"));
+        loop {
+            let field = if next == Some(b'"') {
+                quoted(bytes, at, |b| is_blank(b) || cuts(b))?
+            } else {
+                let ends = |b: &u8| cuts(*b) || by_blanks && is_blank(*b);
+                let end = bytes[at..].iter().position(ends);
+                let text = &line[at..end.map_or(bytes.len(), |end| at + end)];
+                let end = at + text.trim_end_matches([' ', '\t']).len();
+                if text.contains('"') {
+                    return Err(Problem::quote("stands within a field"));
+                }
+                let quoted = false;
+                Field {
+                    start: at,
+                    end,
+                    quoted,
+                }
+            };
+            if by_blanks && (field.start == field.end || matches!(next, Some(b'#' | b'%'))) {
+                return Err(Problem::empty_field());
             }
-            Field::plain(at, end)
-        };
-        at = field.end + usize::from(field.quoted);
-        fields.push(field);
-    }
-}
-
-/// Splits a line of a table into its fields, which one separator each stands between: they may hold
-/// blanks, and be empty.
-///
-/// # Errors
-/// A quote where none belongs.
-pub(crate) fn split_by(line: &str, separator: u8, fields: &mut Vec<Field>) -> Result<(), Problem> {
-    let bytes = line.as_bytes();
-    fields.clear();
-    let blanks = |from: usize| {
-        let blank = |b: &&u8| **b == b' ' || **b == b'\t' && separator != b'\t';
-        from + bytes[from..].iter().take_while(blank).count()
-    };
-    let mut at = blanks(0);
-    if matches!(bytes.get(at), None | Some(b'#' | b'%')) {
-        return Ok(());
-    }
-    loop {
-        at = blanks(at);
-        let field = if bytes.get(at) == Some(&b'"') {
-            quoted(bytes, at, Some(separator))?
-        } else {
-            let length = bytes[at..].iter().position(|&b| b == separator);
-            let end = length.map_or(bytes.len(), |length| at + length);
-            let text = line[at..end].trim_end_matches([' ', '\t']);
-            if text.contains('"') {
-                return Err(Problem::Quote("stands within a field"));
+            fields.push(field);
+            let end = field.end + usize::from(field.quoted);
+            (at, next) = behind(end);
+            match next {
+                None => return Ok(()),
+                Some(b) if cuts(b) => (at, next) = behind(at + 1),
+                Some(b'#' | b'%') if by_blanks => return Ok(()),
+                Some(_) if by_blanks => {}
+                Some(_) => return Err(Problem::quote("is not followed by a separator")),
             }
-            Field {
-                start: at,
-                end: at + text.len(),
-                quoted: false,
-                doubled: false,
-            }
-        };
-        fields.push(field);
-        let behind = blanks(field.end + usize::from(field.quoted));
-        match bytes.get(behind) {
-            None => return Ok(()),
-            Some(&b) if b == separator => at = behind + 1,
-            Some(_) => return Err(Problem::Quote("is not followed by a separator")),
         }
     }
 }
 
-/// The quoted field that begins at a quote; in tables of one `separator` it may be empty.
-fn quoted(bytes: &[u8], at: usize, separator: Option<u8>) -> Result<Field, Problem> {
+/// The quoted field that begins at a quote.
+fn quoted(bytes: &[u8], at: usize, ends: impl Fn(u8) -> bool) -> Result<Field, Problem> {
     let mut end = at + 1;
-    let mut doubled = false;
     loop {
-        let behind = bytes.get(end + 1).copied();
-        let closes = matches!(behind, None | Some(b' ' | b'\t' | b',')) || behind == separator;
-        match (bytes.get(end), behind) {
-            (None, _) => return Err(Problem::Quote("is not closed on its line")),
-            (Some(b'"'), Some(b'"')) => {
-                doubled = true;
-                end += 2;
+        match (bytes.get(end), bytes.get(end + 1)) {
+            (None, _) => return Err(Problem::quote("is not closed on its line")),
+            (Some(b'"'), Some(b'"')) => end += 2,
+            (Some(b'"'), Some(&b)) if !ends(b) => {
+                return Err(Problem::quote("is not followed by a separator"));
             }
-            (Some(b'"'), _) if closes && end == at + 1 && separator.is_none() => {
-                return Err(Problem::Quote("encloses nothing"));
+            (Some(b'"'), _) => {
+                let (start, quoted) = (at + 1, true);
+                return Ok(Field { start, end, quoted });
             }
-            (Some(b'"'), _) if closes => {
-                return Ok(Field {
-                    start: at + 1,
-                    end,
-                    quoted: true,
-                    doubled,
-                });
-            }
-            (Some(b'"'), _) => return Err(Problem::Quote("is not followed by a separator")),
             _ => end += 1,
         }
     }
 }
 
 /// Whether this is a decimal number: `[+-]?(d+(.d*)?|.d+)([eE][+-]?d+)?`.
-#[inline]
 pub(crate) fn is_number(field: &[u8]) -> bool {
-    // What most names begin with is seen without a call.
-    matches!(field.first(), Some(b'0'..=b'9' | b'+' | b'-' | b'.')) && is_decimal(field)
-}
-
-/// The same, of what begins like a number.
-fn is_decimal(field: &[u8]) -> bool {
-    let digits = |text: &[u8]| text.iter().take_while(|b| b.is_ascii_digit()).count();
-    let unsigned = |text: &[u8]| usize::from(matches!(text.first(), Some(b'+' | b'-')));
-    let rest = &field[unsigned(field)..];
-    let whole = digits(rest);
-    let mut rest = &rest[whole..];
-    let mut fraction = 0;
-    if let [b'.', behind @ ..] = rest {
-        fraction = digits(behind);
-        rest = &behind[fraction..];
-    }
-    if whole + fraction == 0 {
-        return false;
-    }
-    if let [b'e' | b'E', behind @ ..] = rest {
-        let behind = &behind[unsigned(behind)..];
-        return !behind.is_empty() && digits(behind) == behind.len();
-    }
-    rest.is_empty()
+    let plain = |b: &u8| b"0123456789+-.eE".contains(b);
+    field.iter().all(plain) && str::from_utf8(field).is_ok_and(|text| text.parse::<f64>().is_ok())
 }
 
 /// The value of a decimal integer without sign and leading zeros, below 2^64.

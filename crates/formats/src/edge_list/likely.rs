@@ -6,13 +6,14 @@
 use std::collections::HashSet;
 
 use super::names::{are_alike, is_image, shape};
-use super::refusal::Refusal;
+use crate::error::Problem;
 
 /// So many of the first pairs are looked at, in lists of any length.
 const MOST: usize = 1 << 16;
 
+const ONCE: &str = "as a table with a line for each thing has";
+
 /// A list of pairs, as far as it has been understood.
-#[derive(Default)]
 pub(super) struct List<'a> {
     /// Two integers each, or numbers of `labels` or `values`.
     pub(super) pairs: &'a [(u32, u32)],
@@ -20,38 +21,40 @@ pub(super) struct List<'a> {
     pub(super) labels: Option<&'a [&'a str]>,
     /// Integers, if some are long or begin with zeros.
     pub(super) values: Option<Vec<u64>>,
-    /// Labels that are paired with themselves.
-    pub(super) loops: &'a [Box<str>],
+    /// Lines that pair a label with itself.
+    pub(super) loops: &'a [(u64, Box<str>)],
     /// How many lines have been left out.
     pub(super) left_out: u64,
-    /// The third fields of the first lines, if they are integers.
-    pub(super) thirds: &'a [u32],
+    /// The third fields of the first pairs, where they are integers.
+    pub(super) thirds: &'a [Option<u32>],
     pub(super) width: usize,
 }
 
 impl List<'_> {
     /// What speaks against pairs of cameras.
-    pub(super) fn doubt(&self) -> Option<Refusal> {
+    pub(super) fn doubt(&self) -> Option<Problem> {
         let pairs = &self.pairs[..self.pairs.len().min(MOST)];
-        let table = |what| Some(Refusal::table(what));
         let Some(&(a, b)) = pairs.first() else {
-            let only = table("all lines pair a label with itself: a table, perhaps");
-            return only.filter(|_| !self.loops.is_empty());
+            let only = Problem::table("all lines pair a label with itself: a table, perhaps");
+            return Some(only).filter(|_| !self.loops.is_empty());
         };
         let is_first = |pair: &(u32, u32)| [(a, b), (b, a)].contains(pair);
         if pairs.len() + self.loops.len() > 1 && pairs.iter().all(is_first) {
-            return table("all pairs are of the same two labels: a table, perhaps");
+            return Some(Problem::table(
+                "all pairs are of the same two labels: a table, perhaps",
+            ));
         }
-        match self.labels {
-            Some(labels) => self
-                .stands_apart()
-                .or_else(|| self.of_names(pairs, labels).and_then(table)),
-            None => self
-                .of_pandas(pairs)
-                .or_else(|| self.counts())
-                .or_else(|| self.stands_apart())
-                .or_else(|| self.of_integers(pairs).and_then(table)),
-        }
+        let counted = match self.labels {
+            Some(_) => None,
+            None => self.of_pandas(pairs).or_else(|| self.counts()),
+        };
+        counted.or_else(|| self.stands_apart()).or_else(|| {
+            let what = match self.labels {
+                Some(labels) => self.of_names(pairs, labels),
+                None => self.of_integers(pairs),
+            };
+            what.map(Problem::table)
+        })
     }
 
     fn integer(&self, end: u32) -> u64 {
@@ -60,16 +63,16 @@ impl List<'_> {
     }
 
     /// A line in a refusal, which is no pair.
-    fn odd(&self, place: &str, (a, b): (u32, u32), what: &str) -> Refusal {
+    fn odd(&self, place: &str, (a, b): (u32, u32), what: &str) -> Problem {
         let label = |end: u32| match self.labels {
             Some(labels) => labels[end as usize].to_owned(),
             None => self.integer(end).to_string(),
         };
-        Refusal::odd(place, &format!("{} {}", label(a), label(b)), what)
+        Problem::odd(place, &format!("{} {}", label(a), label(b)), what)
     }
 
     /// A first line whose labels are in no other line, or a last one below names.
-    pub(super) fn stands_apart(&self) -> Option<Refusal> {
+    pub(super) fn stands_apart(&self) -> Option<Problem> {
         let what = "may be a head or counts: its labels are in no other line";
         let is_apart = |(a, b): (u32, u32), others: &[(u32, u32)]| {
             let images = |labels: &[&str]| [a, b].iter().all(|&end| is_image(labels[end as usize]));
@@ -87,10 +90,10 @@ impl List<'_> {
 
     /// The numbers of columns as pandas writes them above tables without names: of two only where nothing but
     /// this line has the 0.
-    fn of_pandas(&self, pairs: &[(u32, u32)]) -> Option<Refusal> {
+    fn of_pandas(&self, pairs: &[(u32, u32)]) -> Option<Problem> {
         let (&(a, b), below) = pairs.split_first()?;
         // A third column makes it sure enough.
-        let three = self.width == 3 && self.thirds.first() == Some(&2);
+        let three = self.width == 3 && self.thirds.first() == Some(&Some(2));
         let numbered = (self.integer(a), self.integer(b)) == (0, 1) && (three || self.width == 2);
         let is_alone = three || below.iter().all(|&(c, d)| c != a && d != a);
         let what = "may be the numbers of the columns as pandas writes them";
@@ -99,13 +102,13 @@ impl List<'_> {
     }
 
     /// The numbers of nodes and pairs, above or below these.
-    fn counts(&self) -> Option<Refusal> {
+    fn counts(&self) -> Option<Problem> {
         let lines = self.pairs.len() as u64 + self.left_out - 1;
-        // Most lines are none, and nothing has to be counted.
-        let twice = |m: u64| m == lines || m.checked_mul(2) == Some(lines);
         let is_count = |at: usize| {
             let (a, b) = self.pairs[at];
             let (x, y) = (self.integer(a), self.integer(b));
+            // Most lines are none, and nothing has to be counted.
+            let twice = |m: u64| m == lines || m.checked_mul(2) == Some(lines);
             if !twice(x) && !twice(y) || at > 0 && is_chain(self.pairs) {
                 return false;
             }
@@ -120,55 +123,46 @@ impl List<'_> {
             };
             counts(x, y) || counts(y, x)
         };
-        let ends = [("first", 0), ("last", self.pairs.len() - 1)];
-        let (place, at) = ends
-            .into_iter()
-            .find(|&(_, at)| lines > 2 && is_count(at))?;
+        let mut ends = [("first", 0), ("last", self.pairs.len() - 1)].into_iter();
+        let (place, at) = ends.find(|&(_, at)| lines > 2 && is_count(at))?;
         Some(self.odd(place, self.pairs[at], "may count nodes and lines"))
     }
 
-    fn of_integers(&self, pairs: &[(u32, u32)]) -> Option<&'static str> {
-        let values = pairs
-            .iter()
-            .map(|&(a, b)| (self.integer(a), self.integer(b)));
-        if let ([_], Some((a, b))) = (pairs, values.clone().next()) {
-            let sizes = "one line of two numbers may be a size, or two counts";
-            return (b.checked_sub(1) != Some(a)).then_some(sizes);
-        }
+    fn of_integers(&self, pairs: &[(u32, u32)]) -> Option<String> {
+        let values = pairs.iter();
+        let values = values.map(|&(a, b)| (self.integer(a), self.integer(b)));
         let is_chain = is_chain(pairs);
-        let loops = self.loops.iter().filter_map(|label| label.parse().ok());
+        let loops = self
+            .loops
+            .iter()
+            .filter_map(|(_, label)| label.parse().ok());
         let firsts = loops.chain(values.clone().map(|(a, _)| a));
-        if (!is_chain || !self.loops.is_empty()) && are_different(firsts) {
-            return Some(
-                "the first column has each number once, as a table with a line for each thing has",
-            );
-        }
         let falls = values.clone().any(|(a, b)| a > b);
-        if !is_chain && falls && are_different(values.map(|(_, b)| b)) {
-            return Some(
-                "the second column has each number once, as a table with a line for each thing has",
-            );
-        }
-        self.columns_apart(pairs).or_else(|| self.triples(pairs))
-    }
-
-    /// Columns with hardly a number in common, as of cameras and points, or pairs with hardly a number in
-    /// common; lists of graphs that are in order, and have no gaps, are such, too.
-    fn columns_apart(&self, pairs: &[(u32, u32)]) -> Option<&'static str> {
-        let (firsts, seconds) = columns(pairs);
-        let all: HashSet<u64> = firsts
-            .union(&seconds)
-            .map(|&end| self.integer(end))
-            .collect();
+        let (left, right) = columns(pairs);
+        let ends = left.union(&right).map(|&end| self.integer(end));
+        let all: HashSet<u64> = ends.collect();
         let (&low, &high) = (all.iter().min()?, all.iter().max()?);
-        let is_rising = |&(a, b): &(u32, u32)| self.integer(a) < self.integer(b);
-        let without_gaps = low <= 1 && high - low == all.len() as u64 - 1;
-        let in_order = without_gaps && self.width < 9 && pairs.iter().all(is_rising);
-        if 4 * firsts.intersection(&seconds).count() < all.len() && !in_order {
-            return Some("the two columns have hardly a number in common");
-        }
-        (pairs.len() > 3 && self.left_out == 0 && 4 * pairs.len() < 3 * all.len())
-            .then_some("most pairs have no number in common with others")
+        // Graphs that are in order, and have no gaps.
+        let in_order = low <= 1 && high - low == all.len() as u64 - 1 && self.width < 9;
+        let in_order = in_order && values.clone().all(|(a, b)| a < b);
+        let what = match pairs {
+            [(a, b)] if self.integer(*b).checked_sub(1) == Some(self.integer(*a)) => return None,
+            [_] => "one line of two numbers may be a size, or two counts",
+            _ if (!is_chain || !self.loops.is_empty()) && are_different(firsts) => {
+                return Some(format!("the first column has each number once, {ONCE}"));
+            }
+            _ if !is_chain && falls && are_different(values.map(|(_, b)| b)) => {
+                return Some(format!("the second column has each number once, {ONCE}"));
+            }
+            _ if 4 * left.intersection(&right).count() < all.len() && !in_order => {
+                "the two columns have hardly a number in common"
+            }
+            [_, _, _, _, ..] if self.left_out == 0 && 4 * pairs.len() < 3 * all.len() => {
+                "most pairs have no number in common with others"
+            }
+            _ => return self.triples(pairs).map(str::to_owned),
+        };
+        Some(what.to_owned())
     }
 
     /// Three labels a line, as of triangles; a matrix of three rows.
@@ -176,60 +170,67 @@ impl List<'_> {
         /// In longer lists weights are numbers of other cameras by chance.
         const FEW: usize = 64;
         let lines = pairs.iter().zip(self.thirds);
-        let lines: Vec<[u32; 3]> = lines.map(|(&(a, b), &c)| [a, b, c]).collect();
-        let enough = lines.len() > 2 && lines.len() >= pairs.len().min(FEW);
-        if self.width != 3 || self.values.is_some() || !enough {
+        let lines = lines.map(|(&(a, b), &c)| c.map(|c| [a, b, c]));
+        let lines: Vec<[u32; 3]> = lines.collect::<Option<_>>()?;
+        if self.width != 3 || self.values.is_some() || lines.len() < 3 {
             return None;
         }
         let is_symmetric = |i: usize| (0..3).all(|j| lines[i][j] == lines[j][i]);
-        if lines.len() == 3 && pairs.len() == 3 && (0..3).all(is_symmetric) {
+        if pairs.len() == 3 && (0..3).all(is_symmetric) {
             return Some("three lines of three numbers that are a symmetric matrix");
         }
         let ends: HashSet<u32> = pairs.iter().flat_map(|&(a, b)| [a, b]).collect();
         let next = ends.iter().max().map_or(0, |&end| end.saturating_add(1));
-        let known = |c: &u32| ends.contains(c) || *c == next;
+        let labels = lines
+            .iter()
+            .filter(|[.., c]| ends.contains(c) || *c == next);
         let thirds: HashSet<u32> = lines.iter().map(|line| line[2]).collect();
-        let labels = lines.iter().filter(|line| known(&line[2])).count();
-        let are_apart = lines.iter().all(|&[a, b, c]| a != c && b != c);
         let both: HashSet<(u32, u32)> = pairs.iter().flat_map(|&(a, b)| [(a, b), (b, a)]).collect();
         let is_closed = |&&[a, b, c]: &&[u32; 3]| both.contains(&(a, c)) || both.contains(&(b, c));
         let closed = lines.iter().filter(is_closed).count();
-        (are_apart
+        (lines.iter().all(|&[a, b, c]| a != c && b != c)
             && (pairs.len() <= FEW || 4 * closed >= lines.len())
             && 2 * thirds.len() >= ends.len().min(lines.len())
-            && 4 * labels >= 3 * lines.len())
+            && 4 * labels.count() >= 3 * lines.len())
         .then_some("the third numbers are labels, too: triangles, perhaps")
     }
 
-    fn of_names(&self, pairs: &[(u32, u32)], labels: &[&str]) -> Option<&'static str> {
+    fn of_names(&self, pairs: &[(u32, u32)], labels: &[&str]) -> Option<String> {
         let (firsts, seconds) = columns(pairs);
-        let all: HashSet<u32> = firsts.union(&seconds).copied().collect();
+        let all: HashSet<&str> = firsts
+            .union(&seconds)
+            .map(|&end| labels[end as usize])
+            .collect();
         let shared = firsts.intersection(&seconds).count();
         if 8 * shared >= all.len() {
             return None;
         }
-        let name = |end: u32| labels[end as usize];
-        let images = all.iter().all(|&end| is_image(name(end)));
-        let single = firsts.len() == pairs.len() && seconds.len() == pairs.len() && pairs.len() > 1;
-        if let (true, &[(a, b)]) = (images && self.width < 9, pairs) {
-            return (!are_alike(name(a), name(b)))
-                .then_some("one line of two images in two folders, or of two kinds");
-        }
-        let shapes: HashSet<String> = all.iter().map(|&end| shape(name(end))).collect();
-        let alike = shapes.len() < 2 && self.width < 9 && !single;
-        if single && shared == 0 {
-            return Some("no label is in two lines: a table of things and their names, perhaps");
-        }
-        (!(alike || images && self.width < 9))
-            .then_some("hardly any label is in both columns: a table, perhaps")
+        let images = self.width < 9 && all.iter().all(|name| is_image(name));
+        let single = firsts.len() == pairs.len() && seconds.len() == pairs.len();
+        let what = match pairs {
+            &[(a, b)] if images && are_alike(labels[a as usize], labels[b as usize]) => {
+                return None;
+            }
+            [_] if images => "one line of two images in two folders, or of two kinds",
+            [_, _, ..] if single && shared == 0 => {
+                "no label is in two lines: a table of things and their names, perhaps"
+            }
+            _ => {
+                let shapes: HashSet<String> = all.iter().map(|name| shape(name)).collect();
+                let alike = shapes.len() < 2 && self.width < 9 && (!single || pairs.len() < 2);
+                return (!alike && !images)
+                    .then(|| "hardly any label is in both columns: a table, perhaps".to_owned());
+            }
+        };
+        Some(what.to_owned())
     }
 
     /// Pairs below a head that names any source and target, no two of which have a label in common.
-    pub(super) fn are_copies(&self) -> Option<Refusal> {
+    pub(super) fn are_copies(&self) -> Option<Problem> {
         let pairs = &self.pairs[..self.pairs.len().min(MOST)];
         let apart = pairs.len() > 1 && are_different(pairs.iter().flat_map(|&(a, b)| [a, b]));
         apart.then(|| {
-            Refusal::new(
+            Problem::new(
                 "no label is in two lines: copies, perhaps, or renamed files",
                 "if these are pairs of images, write `image1` and `image2` above the columns",
             )

@@ -16,9 +16,8 @@
 
 use std::io::{self, Read};
 
-use crate::error::{Fault, Place, Problem};
+use crate::error::{Fault, Kind, Place, Problem};
 use crate::read_as::{Parsed, ReadAs};
-use viewcert::graph::{Graph, GraphError};
 use viewcert::wording::counted;
 
 pub(super) mod columns;
@@ -38,8 +37,7 @@ use fields::{Field, Separator, integer, is_number};
 use likely::List;
 use names::is_image;
 use nodes::{Index, number_integers};
-use plain::{Plain, further_numbers, ignored, line_end};
-use refusal::{Refusal, head, shown};
+use refusal::{head, shown};
 use table::{Head, Layout, layout};
 
 /// The longest line that is read, with its end.
@@ -80,7 +78,7 @@ pub(super) fn read_with(
     let layout = layout(head, whole, reading, options);
     let mut collector = Collector {
         reading,
-        layout: layout.map_err(|problem| no_text(head).unwrap_or(Place::Input.fault(problem)))?,
+        layout: layout?,
         min_weight: options.min_weight.clone(),
         skip_loops: options.skip_loops,
         ..Collector::default()
@@ -89,35 +87,12 @@ pub(super) fn read_with(
     collector.finish()
 }
 
-/// What makes first lines no text at all.
-fn no_text(head: &[u8]) -> Option<Fault> {
-    let head = head.strip_prefix(BYTE_ORDER_MARK).unwrap_or(head);
-    // The last line may be cut within a character.
-    let end = head.iter().rposition(|&byte| byte == b'\n')?;
-    let mut lines = (1..).zip(head[..end].split(|&byte| byte == b'\n'));
-    lines.find_map(|(number, line)| {
-        let problem = text(line.strip_suffix(b"\r").unwrap_or(line)).err()?;
-        Some(Place::Line(number).fault(problem))
-    })
-}
-
 /// Reads a whole list.
 ///
 /// # Errors
 /// As for files.
 pub fn read(text: &[u8], reading: Reading) -> Result<Parsed, Fault> {
     read_with(text, (text, true), reading, &ListOptions::default())
-}
-
-/// What labels there have been in a list without a head.
-#[derive(Default)]
-struct Kinds {
-    integers: bool,
-    names: bool,
-    padded: bool,
-    /// The lengths of the integers, as long as they are one.
-    length: Option<usize>,
-    lengths: bool,
 }
 
 /// The pairs read so far.
@@ -131,18 +106,20 @@ struct Collector {
     head: Option<(u64, [Box<str>; 2])>,
     /// Lines whose pair weighs less.
     light: u64,
-    /// Labels of lines that pair them with themselves, and the first such line.
-    loops: Vec<Box<str>>,
-    first_loop: u64,
+    /// Lines that pair a label with itself.
+    loops: Vec<(u64, Box<str>)>,
     /// Lines that are nothing but a comment.
     comments: u64,
     /// Ends are integers as written, or node numbers of `names` once that exists.
     pairs: Vec<(u32, u32)>,
     singles: Vec<u32>,
     names: Option<Index>,
-    /// The third fields of the first pairs, if they are integers.
-    thirds: Vec<u32>,
-    kinds: Kinds,
+    /// The third fields of the first pairs, where they are integers.
+    thirds: Vec<Option<u32>>,
+    /// Whether the first label of a list without a head is an integer.
+    integers: Option<bool>,
+    /// The length of the first integer, whether others have another one, and whether zeros begin any.
+    lengths: (usize, bool, bool),
     line: u64,
     /// The first line with fields.
     first: Option<u64>,
@@ -152,13 +129,13 @@ struct Collector {
     /// How many bytes the last plain lines have, if nothing else followed them.
     trusted: usize,
     /// Memory for the lines of a part of the text.
-    buffers: Vec<Plain>,
+    buffers: Vec<plain::Plain>,
 }
 
 impl Collector {
     /// Reads a text; the next part of it comes in while the lines of the last one are read.
     fn read(&mut self, mut input: impl Read) -> Result<(), Fault> {
-        let failed = |error: io::Error| Place::Input.fault(error.into());
+        let failed = |error: io::Error| Fault::from(Problem::from(error));
         let (mut text, mut next) = (Vec::new(), Vec::new());
         let mut is_full = fill(&mut input, &mut text).map_err(failed)?;
         while is_full {
@@ -179,7 +156,7 @@ impl Collector {
             });
             read?;
             if self.pairs.len() > PAIR_LIMIT {
-                return Err(Place::Input.fault(Problem::TooManyPairs));
+                return Err(Problem::too_many_pairs().into());
             }
             is_full = filled.map_err(failed)?;
             std::mem::swap(&mut text, &mut next);
@@ -215,36 +192,23 @@ impl Collector {
         }
     }
 
-    /// Reads plain lines as long as there are any, and returns what follows them. What is wrong
-    /// with a line is left to the general way.
+    /// Reads plain lines as long as there are any, on all cores, and returns what follows them. What is
+    /// wrong with a line is left to the general way.
     fn plain_lines<'a>(&mut self, text: &'a [u8]) -> &'a [u8] {
         let is_usual = self.layout.is_usual() && self.names.is_none();
         if !is_usual || self.pairs.len() < FIRST_LINES {
             return text;
         }
-        self.kinds.lengths = true;
-        match self.layout.width {
-            None => self.parts(text, ignored),
-            Some(2) => self.parts(text, |further| line_end(further).map(|rest| (false, rest))),
-            Some(width) => self.parts(text, |further| {
-                further_numbers(further, width).map(|(_, rest)| (false, rest))
-            }),
-        }
-    }
-
-    /// Takes in plain lines at the start of a text, read on all cores, and returns what follows them.
-    fn parts<'a>(
-        &mut self,
-        text: &'a [u8],
-        end: impl Fn(&'a [u8]) -> plain::End<'a> + Sync,
-    ) -> &'a [u8] {
+        self.lengths.1 = true;
+        let width = self.layout.first.max(2);
+        let has_more = self.layout.width.is_none() && width > 2;
         let mut buffers = std::mem::take(&mut self.buffers);
         let mut length = 0;
-        plain::read_parts(text, self.trusted, &mut buffers, end, |plain| {
-            self.line += plain.pairs.len() as u64;
-            self.lines_with_more += plain.with_more;
-            self.pairs.extend_from_slice(&plain.pairs);
-            length += plain.length;
+        plain::read_parts(text, self.trusted, &mut buffers, width, |(pairs, bytes)| {
+            self.line += pairs.len() as u64;
+            self.lines_with_more += pairs.len() as u64 * u64::from(has_more);
+            self.pairs.extend_from_slice(pairs);
+            length += bytes;
         });
         self.buffers = buffers;
         self.trusted = if length == text.len() { length } else { 0 };
@@ -276,23 +240,19 @@ impl Collector {
 
     /// Takes in a line with fields.
     fn line_of(&mut self, line: &str, fields: &[Field], is_first: bool) -> Result<(), Problem> {
-        let found = fields.len();
-        let lone = self.layout.head == Head::Own || self.layout.width.is_none();
-        if let ([only], true) = (fields, lone) {
-            if !only.quoted && self.has_comma(only.raw(line)) {
-                return Err(Refusal::quotes(only.raw(line), BLANKS).into());
+        let (found, is_own) = (fields.len(), self.layout.head == Head::Own);
+        if let ([only], None) = (fields, self.layout.width) {
+            if self.has_comma(only.raw(line)) {
+                return Err(Problem::quotes(only.raw(line), BLANKS).into());
             }
             let [node, _] = self.nodes([&only.text(line); 2])?;
             self.singles.push(node);
             return Ok(());
         }
-        let expected = self
-            .layout
-            .width
-            .or((self.layout.head == Head::Own).then_some(2));
+        let expected = self.layout.width.or(is_own.then_some(2));
         if let Some(expected) = expected.filter(|&expected| expected != found) {
             let first = self.first.filter(|_| !is_first);
-            return Err(Refusal::uneven(found, expected, first).into());
+            return Err(Problem::uneven(found, expected, first).into());
         }
         let ends = self.layout.ends.map(|end| fields[end]);
         let labels = ends.map(|field| field.text(line));
@@ -308,17 +268,12 @@ impl Collector {
             return Ok(());
         }
         if labels[0] == labels[1] {
-            if self.loops.is_empty() {
-                self.first_loop = self.line;
-            }
-            self.loops.push(labels[0].into());
+            self.loops.push((self.line, labels[0].into()));
             return Ok(());
         }
-        if self.layout.width == Some(3) && self.thirds.len() == self.pairs.len() {
+        if self.layout.width == Some(3) && self.pairs.len() < FIRST_LINES {
             let third = fields[3 - self.layout.ends[0] - self.layout.ends[1]].text(line);
-            let third = third.parse::<u32>().ok();
-            let third = third.filter(|_| self.pairs.len() < FIRST_LINES);
-            self.thirds.extend(third);
+            self.thirds.push(third.parse().ok());
         }
         let [a, b] = self.nodes(labels)?;
         self.pairs.push((a, b));
@@ -327,53 +282,46 @@ impl Collector {
 
     /// Refuses what is no pair of labels with numbers behind.
     fn check(&mut self, line: &str, fields: &[Field], ends: [Field; 2]) -> Result<(), Problem> {
+        let is_strict = self.reading == Reading::Strict;
         for field in ends {
             let label = field.raw(line);
             if label.is_empty() {
-                return Err(Problem::EmptyField);
+                return Err(Problem::empty_field());
             }
             if field.quoted || self.is_known(label) {
                 continue;
             }
-            if self.reading == Reading::Strict
-                && let Some(refusal) = unlike_a_label(label)
-            {
+            if let Some(refusal) = unlike_a_label(label).filter(|_| is_strict) {
                 return Err(refusal.into());
             }
             let blanks = label.contains([' ', '\t']) && !is_image(label);
             let commas = label.contains(',') && self.layout.separator != Separator::Byte(b';');
             let bare = matches!(self.layout.head, Head::None | Head::Comment);
             if (blanks || commas) && bare || self.has_comma(label) {
-                return Err(Refusal::quotes(label, BLANKS).into());
+                return Err(Problem::quotes(label, BLANKS).into());
             }
         }
-        if self.reading == Reading::Strict && matches!(self.layout.head, Head::None | Head::Line) {
-            for field in ends {
-                self.kind(&field.text(line))?;
-            }
-        }
-        if self.reading != Reading::Strict
-            || self.layout.head != Head::None
-            || self.layout.attributes
-        {
+        if !is_strict || !matches!(self.layout.head, Head::None | Head::Line) {
             return Ok(());
         }
-        let numbers = &fields[2..];
-        let is_number = |field: &Field| match self.layout.separator {
-            // Where semicolons separate, commas are points.
-            Separator::Byte(b';') => is_number(field.raw(line).replace(',', ".").as_bytes()),
-            _ => field.is_number(line),
-        };
-        if let Some(at) = numbers.iter().position(|field| !is_number(field)) {
-            let field = numbers[at].text(line);
-            if field.is_empty() {
-                return Err(Problem::EmptyField);
-            }
-            let what = format!("field {}, `{}`, is no number", at + 3, shown(&field));
-            return Err(Refusal::lines(what).into());
+        for field in ends {
+            self.kind(&field.text(line))?;
         }
-        match self.pairs.len() < FIRST_LINES && !poses::are(line, numbers) {
-            true => Err(Refusal::lines(poses::MISSING).into()),
+        if self.layout.head == Head::Line {
+            return Ok(());
+        }
+        for (field, at) in fields[2..].iter().zip(3..) {
+            let text = self.layout.number(field.raw(line));
+            if text.is_empty() {
+                return Err(Problem::empty_field());
+            }
+            if field.quoted || !is_number(text.as_bytes()) {
+                let what = format!("field {at}, `{}`, is no number", shown(&text));
+                return Err(Problem::lines(what).into());
+            }
+        }
+        match self.pairs.len() < FIRST_LINES && !poses::are(line, &fields[2..]) {
+            true => Err(Problem::lines(poses::MISSING).into()),
             false => Ok(()),
         }
     }
@@ -394,19 +342,25 @@ impl Collector {
         let digits = label.bytes().all(|b| b.is_ascii_digit());
         if !digits && is_number(label.as_bytes()) {
             let what = "is a number and no integer: coordinates, perhaps";
-            return Err(Refusal::lines(format!("`{}` {what}", shown(label))).into());
+            return Err(Problem::lines(format!("`{}` {what}", shown(label))).into());
         }
         if self.layout.head != Head::None {
             return Ok(());
         }
-        let kinds = &mut self.kinds;
-        if digits && kinds.names || !digits && kinds.integers {
-            return Err(mixed(label, kinds.integers));
+        let integers = *self.integers.get_or_insert(digits);
+        if digits != integers {
+            let (kind, others) = match integers {
+                true => ("no integer", "integers"),
+                false => ("a number", "names"),
+            };
+            let label = shown(label);
+            let what = format!("`{label}` is {kind}, and the labels before it are {others}");
+            return Err(Problem::lines(what).into());
         }
-        kinds.integers |= digits;
-        kinds.names |= !digits;
-        kinds.padded |= digits && label.len() > 1 && label.starts_with('0');
-        kinds.lengths |= *kinds.length.get_or_insert(label.len()) != label.len();
+        let (first, differ, padded) = &mut self.lengths;
+        *first = if *first == 0 { label.len() } else { *first };
+        *differ |= *first != label.len();
+        *padded |= digits && label.len() > 1 && label.starts_with('0');
         Ok(())
     }
 
@@ -415,15 +369,11 @@ impl Collector {
         let (Some(column), Some(least)) = (self.layout.weight, &self.min_weight) else {
             return Ok(false);
         };
-        let given = fields[column].text(line);
-        let given = match self.layout.separator {
-            Separator::Byte(b';') => given.replace(',', "."),
-            _ => given.into_owned(),
-        };
+        let given = self.layout.number(&fields[column].text(line));
         least.is_above(&given).map_err(|_| {
             let (column, given) = (column + 1, shown(&given));
             let what = format!("--min-weight: field {column}, `{given}`, is no number");
-            Refusal::columns(what).into()
+            Problem::columns(what).into()
         })
     }
 
@@ -437,31 +387,27 @@ impl Collector {
                     return Ok([a, b]);
                 }
                 // The first label that is not a small integer: from here on labels are text.
-                names.insert(Index::of_integers(&mut self.pairs, &mut self.singles))
+                let mut index = Index::default();
+                let ends = self.pairs.iter_mut().flat_map(|(a, b)| [a, b]);
+                for end in ends.chain(&mut self.singles) {
+                    *end = index
+                        .node(&end.to_string())
+                        .ok_or_else(Problem::too_many_nodes)?;
+                }
+                names.insert(index)
             }
         };
         match (names.node(labels[0]), names.node(labels[1])) {
             (Some(a), Some(b)) => Ok([a, b]),
-            _ => Err(Problem::TooManyNodes),
+            _ => Err(Problem::too_many_nodes()),
         }
-    }
-
-    /// The labels by their numbers, if there are others than small integers.
-    fn labels(&self) -> Option<Vec<&str>> {
-        let names = self.names.as_ref()?;
-        let mut labels = vec![""; names.nodes.len()];
-        for (label, &node) in &names.nodes {
-            labels[node as usize] = label;
-        }
-        Some(labels)
     }
 
     /// What speaks against the pairs being pairs of cameras.
-    fn doubt(&self) -> Option<Refusal> {
-        let labels = self.labels();
-        let digits = |label: &str| label.bytes().all(|b| b.is_ascii_digit());
+    fn doubt(&self) -> Option<Problem> {
+        let labels = self.names.as_ref().map(Index::labels);
         let values: Option<Vec<u64>> = labels.as_ref().and_then(|labels| {
-            let value = |label: &&str| label.parse().ok().filter(|_| digits(label));
+            let value = |label: &&str| label.parse().ok().filter(|_| !label.starts_with('+'));
             labels.iter().map(value).collect()
         });
         let list = List {
@@ -477,7 +423,7 @@ impl Collector {
             Head::None => {
                 let commented = self.layout.commented.as_ref().map(|names| {
                     let what = "the comment above the lines names their columns, and no pair";
-                    Refusal::table(format!("{what}: `{}`", shown(names)))
+                    Problem::table(format!("{what}: `{}`", shown(names)))
                 });
                 commented.or_else(|| list.doubt())
             }
@@ -500,19 +446,21 @@ impl Collector {
         let shapes = labels.each_ref().map(|label| names::shape(label));
         let is_like = |name: &&str| shapes.contains(&names::shape(name));
         let is_label = labels.iter().any(|label| self.is_known(label));
-        let is_like = || self.labels().is_some_and(|names| names.iter().any(is_like));
+        let is_like = || {
+            let names = self.names.as_ref().map(Index::labels);
+            names.is_some_and(|names| names.iter().any(is_like))
+        };
         if self.layout.head == Head::Line && (is_label || is_like()) {
             let what = "may be a head, and it looks like the labels below";
-            let refusal = Refusal::odd("first", &shown, what);
+            let refusal = Problem::odd("first", &shown, what);
             return Err(Place::Line(line).fault(refusal.into()));
         }
         Ok(Some(format!("the first line is a head: {shown}")))
     }
 
     fn finish(mut self) -> Result<Parsed, Fault> {
-        let fault = |problem| Place::Input.fault(problem);
         if self.pairs.len() > PAIR_LIMIT {
-            return Err(fault(Problem::TooManyPairs));
+            return Err(Problem::too_many_pairs().into());
         }
         let mut notes = Vec::new();
         let mut read = ReadAs::new("edge list");
@@ -520,21 +468,21 @@ impl Collector {
             read.guessed.push(head.clone());
             notes.push(head);
         }
-        if self.kinds.padded && self.kinds.lengths {
+        if let (_, true, true) = self.lengths {
             let what = "some numbers begin with zeros, and not all have as many digits";
-            return Err(fault(Refusal::lines(what).into()));
+            return Err(Problem::lines(what).into());
         }
         match self.doubt() {
-            Some(doubt) if self.reading == Reading::Strict => return Err(fault(doubt.into())),
+            Some(doubt) if self.reading == Reading::Strict => return Err(doubt.into()),
             Some(doubt) => notes.push(doubt.what),
             None => {}
         }
-        if let (Some(label), false) = (self.loops.first(), self.skip_loops) {
-            let problem = Problem::SelfLoop(label.clone().into());
-            return Err(Place::Line(self.first_loop).fault(problem));
+        if let (Some((line, label)), false) = (self.loops.first(), self.skip_loops) {
+            let problem = Problem::self_loop(label);
+            return Err(Place::Line(*line).fault(problem));
         }
         if self.pairs.is_empty() && self.singles.is_empty() {
-            return Err(fault(Problem::NoNodes));
+            return Err(Problem::no_nodes().into());
         }
         self.say(&mut read);
         let Self {
@@ -547,12 +495,7 @@ impl Collector {
             Some(names) => names.sort(&mut pairs),
             None => number_integers(&mut pairs, &singles),
         };
-        let nodes = u32::try_from(nodes).map_err(|_| fault(Problem::TooManyNodes))?;
-        // Both refusals are impossible here: no pair is a loop, and every end was numbered.
-        let (graph, merged) = Graph::from_pairs(nodes, pairs).map_err(|error| match error {
-            GraphError::SelfLoop(node) => fault(Problem::SelfLoop(labels.label(node).into())),
-            GraphError::OutOfRange { .. } => fault(Problem::TooManyNodes),
-        })?;
+        let (graph, merged) = nodes::graph(pairs, (&labels, nodes))?;
         read.merged = merged;
         notes.extend(crate::merged(merged));
         Ok(Parsed {
@@ -603,53 +546,40 @@ fn fill(input: &mut impl Read, text: &mut Vec<u8>) -> io::Result<bool> {
 /// What makes them no text.
 pub(super) fn text(bytes: &[u8]) -> Result<&str, Problem> {
     if let Some(&byte) = bytes.iter().find(|b| b.is_ascii_control() && **b != b'\t') {
-        return Err(match byte {
-            _ if bytes.contains(&0) => Problem::Nul,
-            b'\r' => Problem::CarriageReturn,
-            _ => Problem::Control(byte),
-        });
+        return Err(Problem::control(bytes, byte));
     }
     match std::str::from_utf8(bytes) {
-        Ok(text) if text.contains('\u{feff}') => Err(Problem::InnerMark),
+        Ok(text) if text.contains('\u{feff}') => {
+            let remedy = "remove it; files with such marks cannot be joined byte by byte";
+            let what = "there is a byte order mark (U+FEFF) within the text";
+            Err(Problem::of(Kind::Other, what, remedy))
+        }
         Ok(text) => Ok(text),
-        Err(_) => Err(Problem::NotUtf8),
+        Err(_) => Err(Problem::not_utf8()),
     }
 }
 
 /// What is wrong with a field that another separator would cut.
 const BLANKS: &str = "has blanks or commas";
 
-/// A label among others of another kind.
-fn mixed(label: &str, integers: bool) -> Problem {
-    let (kind, others) = match integers {
-        true => ("no integer", "integers"),
-        false => ("a number", "names"),
-    };
-    let label = shown(label);
-    Refusal::lines(format!(
-        "`{label}` is {kind}, and the labels before it are {others}"
-    ))
-    .into()
-}
-
 /// More than a line.
 fn too_long() -> Problem {
-    Refusal::lines(format!("the line is longer than {LINE_LIMIT} bytes")).into()
+    Problem::lines(format!("the line is longer than {LINE_LIMIT} bytes")).into()
 }
 
 /// Why an unquoted field is no label: it has neither letters nor digits, or is punctuated like a part of
 /// another notation: `(1` of `(1, 2)`, `2;` of `1 2;`, `key:` of `key: value`.
-fn unlike_a_label(field: &str) -> Option<Refusal> {
+fn unlike_a_label(field: &str) -> Option<Problem> {
     let word = field.bytes().any(|b| b.is_ascii_alphanumeric() || b > 0x7f);
     if !word || field.starts_with("//") {
         let what = format!(
             "`{}` is neither the name of a camera nor a number",
             shown(field)
         );
-        return Some(Refusal::lines(what));
+        return Some(Problem::lines(what));
     }
     let punctuated = field.ends_with([';', ':']) || !brackets_close(field);
-    punctuated.then(|| Refusal::quotes(field, "is punctuated like another format"))
+    punctuated.then(|| Problem::quotes(field, "is punctuated like another format"))
 }
 
 /// Whether every bracket in a field has its partner there.

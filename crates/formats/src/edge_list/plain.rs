@@ -17,40 +17,21 @@ const PIECE: usize = 1 << 18;
 /// More pieces than that are of no use to the cores of any machine.
 const MOST_PIECES: usize = 256;
 
-/// Plain lines at the start of a text.
-#[derive(Debug, Default, PartialEq, Eq)]
-pub(super) struct Plain {
-    /// One pair a line, in order.
-    pub(super) pairs: Vec<(u32, u32)>,
-    /// How many lines have fields that are ignored.
-    pub(super) with_more: u64,
-    /// How many bytes the lines have.
-    pub(super) length: usize,
-}
+/// Plain lines at the start of a text: their pairs in order, and how many bytes the lines have.
+pub(super) type Plain = (Vec<(u32, u32)>, usize);
 
-/// What follows the first two fields on a line, if it is plain: whether there are fields to be
-/// ignored, and the text behind the line.
-pub(super) type End<'a> = Option<(bool, &'a [u8])>;
-
-/// Reads plain lines while `end` accepts what follows the pair on each. Memory that `plain` has is used again.
+/// Reads plain lines of so many fields. Memory that `plain` has is used again.
 #[inline]
-pub(super) fn read<'a>(text: &'a [u8], plain: &mut Plain, end: impl Fn(&'a [u8]) -> End<'a>) {
-    let Plain {
-        pairs,
-        with_more,
-        length,
-    } = plain;
+fn read(text: &[u8], (pairs, length): &mut Plain, width: usize) {
     pairs.clear();
     // Few lines are shorter than eight bytes.
     pairs.reserve(text.len().min(2 * PIECE) / 8);
-    *with_more = 0;
     let mut left = text;
-    // A pair of a label with itself is for the general way, before `end` takes note of it.
+    // A pair of a label with itself is for the general way.
     while let Some((a, b, further)) = pair(left).filter(|(a, b, _)| a != b) {
-        match end(further) {
-            Some((more, rest)) if left.len() - rest.len() <= LINE_LIMIT => {
+        match end(further, width) {
+            Some(rest) if left.len() - rest.len() <= LINE_LIMIT => {
                 pairs.push((a, b));
-                *with_more += u64::from(more);
                 left = rest;
             }
             _ => break,
@@ -59,13 +40,13 @@ pub(super) fn read<'a>(text: &'a [u8], plain: &mut Plain, end: impl Fn(&'a [u8])
     *length = text.len() - left.len();
 }
 
-/// The same on all cores, where `end` looks at one line alone; each batch of parts of the text is
+/// The same on all cores; each batch of parts of the text is
 /// given to `take`, in order. `trusted` is how much has been plain before it.
-pub(super) fn read_parts<'a>(
-    mut text: &'a [u8],
+pub(super) fn read_parts(
+    mut text: &[u8],
     trusted: usize,
     parts: &mut Vec<Plain>,
-    end: impl Fn(&'a [u8]) -> End<'a> + Sync,
+    width: usize,
     mut take: impl FnMut(&Plain),
 ) {
     let mut size = FIRST.max(trusted);
@@ -75,13 +56,11 @@ pub(super) fn read_parts<'a>(
         if parts.len() < pieces.len() {
             parts.resize_with(pieces.len(), Plain::default);
         }
-        pieces
-            .par_iter()
-            .zip(&mut *parts)
-            .for_each(|(piece, plain)| read(piece, plain, &end));
+        let all = pieces.par_iter().zip(&mut *parts);
+        all.for_each(|(piece, plain)| read(piece, plain, width));
         for (plain, piece) in parts.iter().zip(pieces) {
             take(plain);
-            if plain.length < piece.len() {
+            if plain.1 < piece.len() {
                 return;
             }
         }
@@ -142,11 +121,23 @@ fn small_integer(text: &[u8]) -> Option<(u32, &[u8])> {
     Some((value, &text[digits..]))
 }
 
-/// What follows a line that has nothing more but blanks.
+/// What follows the line behind the first two of so many fields, if the others are numbers after one
+/// separator each.
 #[inline]
-pub(super) fn line_end(mut text: &[u8]) -> Option<&[u8]> {
-    if let [b'\n', rest @ ..] = text {
-        return Some(rest);
+fn end(mut text: &[u8], width: usize) -> Option<&[u8]> {
+    for _ in 2..width {
+        let [b' ' | b'\t' | b',', rest @ ..] = text else {
+            return None;
+        };
+        let mut end = rest.iter().position(|b| !b.is_ascii_digit())?;
+        if end == 0 || !matches!(rest[end], b' ' | b'\t' | b',' | b'\n' | b'\r') {
+            let ends = |b: &u8| matches!(b, b' ' | b'\t' | b',' | b'\n' | b'\r');
+            end = rest.iter().position(ends)?;
+            if !fields::is_number(&rest[..end]) {
+                return None;
+            }
+        }
+        text = &rest[end..];
     }
     while let [b' ' | b'\t', rest @ ..] = text {
         text = rest;
@@ -155,59 +146,6 @@ pub(super) fn line_end(mut text: &[u8]) -> Option<&[u8]> {
         [b'\n', rest @ ..] | [b'\r', b'\n', rest @ ..] => Some(rest),
         _ => None,
     }
-}
-
-/// The third of `columns` fields, if it and all further ones are numbers after one separator each,
-/// and what follows the line.
-#[inline]
-pub(super) fn further_numbers(text: &[u8], columns: usize) -> Option<(&[u8], &[u8])> {
-    let mut third = None;
-    let mut text = text;
-    for _ in 2..columns {
-        let [b' ' | b'\t' | b',', rest @ ..] = text else {
-            return None;
-        };
-        let end = rest.iter().position(|b| !b.is_ascii_digit())?;
-        let end = match rest[end] {
-            b' ' | b'\t' | b',' | b'\n' | b'\r' if end > 0 => end,
-            _ => {
-                let plain = |b: &u8| matches!(b, b'0'..=b'9' | b'+' | b'-' | b'.' | b'e' | b'E');
-                let end = rest.iter().position(|b| !plain(b))?;
-                if !fields::is_number(&rest[..end]) {
-                    return None;
-                }
-                end
-            }
-        };
-        third.get_or_insert(&rest[..end]);
-        text = &rest[end..];
-    }
-    Some((third?, line_end(text)?))
-}
-
-/// Whether a line goes on with further fields, and what follows it; `None` if it has
-/// anything but plain characters, or a comma that no such character follows.
-#[inline]
-pub(super) fn ignored(text: &[u8]) -> End<'_> {
-    match text {
-        [b'\n', rest @ ..] | [b'\r', b'\n', rest @ ..] => return Some((false, rest)),
-        [b' ' | b'\t' | b',', ..] => {}
-        _ => return None,
-    }
-    let mut more = false;
-    let mut comma = false;
-    let stop = text.iter().position(|byte| match byte {
-        b' ' | b'\t' => comma,
-        b',' => std::mem::replace(&mut comma, true),
-        b'$' | b'&'..=b'~' => {
-            comma = false;
-            more = true;
-            false
-        }
-        _ => true,
-    })?;
-    let rest = line_end(&text[stop..])?;
-    (!comma).then_some((more, rest))
 }
 
 #[cfg(test)]
@@ -268,24 +206,18 @@ mod tests {
             (200_000, 1 << 19),
         ] {
             let text = lines(stop);
-            let (mut pairs, mut length, mut with_more) = (Vec::new(), 0, 0);
+            let (mut pairs, mut length) = (Vec::new(), 0);
             let take = |plain: &Plain| {
-                pairs.extend_from_slice(&plain.pairs);
-                length += plain.length;
-                with_more += plain.with_more;
+                pairs.extend_from_slice(&plain.0);
+                length += plain.1;
             };
             // What a buffer holds from before does not matter.
-            let mut parts = vec![Plain {
-                pairs: vec![(7, 8)],
-                with_more: 9,
-                length: 10,
-            }];
-            read_parts(text.as_bytes(), trusted, &mut parts, ignored, take);
+            let mut parts = vec![(vec![(7, 8)], 10)];
+            read_parts(text.as_bytes(), trusted, &mut parts, 3, take);
             let expected: Vec<_> = (0..stop.min(200_000) as u32).map(|k| (k, k + 1)).collect();
             assert_eq!(pairs, expected);
             assert_eq!(text[length..].is_empty(), stop == 200_000);
             assert!(stop == 200_000 || text[length..].starts_with("a b\n"));
-            assert_eq!(with_more, stop as u64);
         }
     }
 }

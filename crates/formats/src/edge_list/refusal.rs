@@ -1,15 +1,7 @@
 //! Why a text is no list of pairs, and what to do about it.
 
+use crate::error::Problem;
 use viewcert::wording::counted;
-
-/// What was seen, and what to do.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Refusal {
-    /// What was seen.
-    pub what: String,
-    /// What to do about it.
-    pub remedy: String,
-}
 
 /// How a list is written that nobody can take for something else.
 pub(super) const WRITE: &str =
@@ -30,12 +22,7 @@ const WHICH: &str = "if two of the columns are the ends of pairs, say which by t
 const EVEN: &str = "write as many on every line, without numbers of lines (R: row.names = FALSE, pandas: index=False), \
                     and names with blanks in quotes";
 
-impl Refusal {
-    pub(crate) fn new(what: impl Into<String>, remedy: impl Into<String>) -> Self {
-        let (what, remedy) = (what.into(), remedy.into());
-        Self { what, remedy }
-    }
-
+impl Problem {
     /// Lines that are none of a list.
     pub(super) fn lines(what: impl Into<String>) -> Self {
         Self::new(what, WRITE)

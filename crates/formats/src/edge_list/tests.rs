@@ -104,7 +104,7 @@ fn what_is_no_bare_list_is_refused() {
         ("a -> b\n", "`->` is neither"),
         ("-> b\n", "`->` is neither"),
         ("(1, 2)\n(2, 3)\n", "punctuated"),
-        ("a b {}\nb c\n", "`{...}` are expected"),
+        ("a b {}\nb c d\n", "the line has 3 fields, and line 1 has 2"),
         // Tables of something else.
         (
             "0 3\n1 4\n2 3\n3 2\n",

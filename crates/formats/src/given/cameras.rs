@@ -16,7 +16,7 @@ use crate::cameras::{Cameras, for_each_line};
 use crate::edge_list::BYTE_ORDER_MARK;
 use crate::edge_list::fields::{Field, split};
 use crate::edge_list::refusal::shown;
-use crate::error::{Fault, Place, Problem, ReadError};
+use crate::error::{Fault, Problem, ReadError};
 use crate::{Model, NamedGraph, matlab};
 use viewcert::geometry::camera::Camera;
 use viewcert::geometry::model::Model as Question;
@@ -41,7 +41,7 @@ pub(super) fn of_folder(
     model: Question,
 ) -> Result<GivenCameras, ReadError> {
     let found = of_model(&Model::read(folder)?, input);
-    let found = found.map_err(|problem| Place::Input.fault(problem));
+    let found = found.map_err(Fault::from);
     finished(found, &folder.display().to_string(), input, model)
 }
 
@@ -72,7 +72,7 @@ fn arrays(bytes: &[u8]) -> Option<Fault> {
         ),
         () => return None,
     };
-    Some(Place::Input.fault(Problem::foreign(what, advice)))
+    Some(Problem::foreign(what, advice).into())
 }
 
 fn finished(
@@ -165,7 +165,7 @@ fn of_text(text: impl io::Read, input: &NamedGraph) -> Result<Read, Fault> {
             Some(_) => Err(twice(&first.text(line))),
         }
     })?;
-    all(given, input, Vec::new()).map_err(|problem| Place::Input.fault(problem))
+    all(given, input, Vec::new()).map_err(Fault::from)
 }
 
 fn twice(camera: &str) -> Problem {
@@ -191,7 +191,7 @@ fn number(field: Field, line: &str) -> Result<Rational, Problem> {
 fn of_model(model: &Model, input: &NamedGraph) -> Result<Read, Problem> {
     let cameras = Cameras::new(input);
     let poses = model.poses();
-    let poses = poses.map_err(|image| Problem::Corrupt(format!("the pose of image {image}")))?;
+    let poses = poses.map_err(|image| Problem::corrupt(format!("the pose of image {image}")))?;
     let (mut given, mut strangers) = (BTreeMap::new(), 0);
     for (image, pose) in model.images.iter().zip(poses) {
         match cameras.node(&image.name) {

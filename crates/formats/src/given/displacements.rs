@@ -21,16 +21,9 @@ pub(super) struct Lines {
     has_vectors: Option<bool>,
     /// Pairs as they stand there, the number of their line, and the vector from the first to the
     /// second.
-    pairs: Vec<Line<(u32, u32)>>,
+    pairs: Vec<(u64, (u32, u32), Option<Vector>)>,
     /// Cameras with a known position.
-    positions: Vec<Line<u32>>,
-}
-
-/// What a line says of a camera or a pair.
-struct Line<T> {
-    number: u64,
-    about: T,
-    vector: Option<Vector>,
+    positions: Vec<(u64, u32, Option<Vector>)>,
 }
 
 type Vector = [Coordinate; 3];
@@ -40,48 +33,33 @@ impl Lines {
         self.has_vectors.is_none()
     }
 
-    /// Takes in a line with a displacement: two cameras, and perhaps a vector.
-    pub(super) fn take_pair(
+    /// Takes in a line with a displacement, which names two cameras, or a position, which names one; and perhaps a
+    /// vector.
+    pub(super) fn take(
         &mut self,
+        count: usize,
         number: u64,
         line: &str,
         fields: &[Field],
         cameras: &Cameras,
     ) -> Result<(), Problem> {
-        let (&[first, second], rest) = fields
-            .split_first_chunk()
-            .ok_or_else(|| Problem::new("the line does not name two cameras", LINES))?;
-        let [first, second] = [cameras.named(first, line)?, cameras.named(second, line)?];
+        let wrong = |what: &str| Err(Problem::new(what, LINES));
+        let Some((named, rest)) = fields.split_at_checked(count) else {
+            return wrong(
+                [
+                    "the line names no camera",
+                    "the line does not name two cameras",
+                ][count - 1],
+            );
+        };
+        let named = named.iter().map(|&field| cameras.named(field, line));
+        let named: Vec<u32> = named.collect::<Result<_, _>>()?;
         let vector = self.vector(line, rest)?;
-        if first == second {
-            return Err(Problem::new("the line names one camera twice", LINES));
+        match named[..] {
+            [first, second] if first == second => return wrong("the line names one camera twice"),
+            [first, second] => self.pairs.push((number, (first, second), vector)),
+            _ => self.positions.push((number, named[0], vector)),
         }
-        self.pairs.push(Line {
-            number,
-            about: (first, second),
-            vector,
-        });
-        Ok(())
-    }
-
-    /// Takes in a line with a position: a camera, and perhaps where it is.
-    pub(super) fn take_position(
-        &mut self,
-        number: u64,
-        line: &str,
-        fields: &[Field],
-        cameras: &Cameras,
-    ) -> Result<(), Problem> {
-        let (first, rest) = fields
-            .split_first()
-            .ok_or_else(|| Problem::new("the line names no camera", LINES))?;
-        let about = cameras.named(*first, line)?;
-        let vector = self.vector(line, rest)?;
-        self.positions.push(Line {
-            number,
-            about,
-            vector,
-        });
         Ok(())
     }
 
@@ -113,48 +91,36 @@ impl Lines {
     }
 
     pub(super) fn finish(mut self, graph: &NamedGraph, one_frame: bool) -> Result<Given, Fault> {
-        let pairs: BTreeSet<_> = self.pairs.iter().map(|line| sorted(line.about)).collect();
-        let positions: BTreeSet<_> = self.positions.iter().map(|line| line.about).collect();
-        let again = self.pairs.len() - pairs.len() + self.positions.len() - positions.len();
+        let pairs = self
+            .pairs
+            .iter()
+            .map(|&(_, (v, w), _)| (v.min(w), v.max(w)));
+        let pairs: BTreeSet<_> = pairs.collect();
+        let positions: BTreeSet<_> = self.positions.iter().map(|line| line.1).collect();
         let same = self.take_positions(graph, one_frame)?;
         let known = self.known(graph, one_frame)?;
         if known.is_empty() {
-            return Err(Place::Input.fault(match positions.len() {
+            let problem = match positions.len() {
                 0 | 1 => Problem::new(
                     "the file holds no displacement",
                     "write pairs of cameras, one a line, or cameras with known positions, two at least",
                 ),
                 count => one_place(count),
-            }));
+            };
+            return Err(problem.into());
         }
         let is_other = |&&(v, w): &&(u32, u32)| graph.graph.edge_number(v, w).is_none();
         let others = pairs.iter().filter(is_other).count();
-        let mut notes = Vec::new();
-        let mut note = |count: usize, what: &str, one: &str, more: &str| {
-            let how = if count == 1 { one } else { more };
-            if count > 0 {
-                notes.push(format!("{} {how}", counted(count, what)));
-            }
+        let how = match others {
+            1 => "is of no pair of the graph: its direction is known with it",
+            _ => "are of no pairs of the graph: their directions are known with them",
         };
-        note(
-            again,
-            "line",
-            "says again what another one says, and counts once",
-            "say again what others say, and count once",
-        );
-        note(
-            usize::from(positions.len() == 1),
-            "position",
-            "is known, which says nothing about a single camera",
-            "",
-        );
-        note(
-            others,
-            "known displacement",
-            "is of no pair of the graph: its direction is known with it",
-            "are of no pairs of the graph: their directions are known with them",
-        );
-        notes.extend(same);
+        let note = format!("{} {how}", counted(others, "known displacement"));
+        let notes = (others > 0)
+            .then_some(note)
+            .into_iter()
+            .chain(same)
+            .collect();
         let known = known_in(known, one_frame);
         Ok(Given { known, notes })
     }
@@ -168,36 +134,30 @@ impl Lines {
     ) -> Result<Vec<String>, Fault> {
         let positions = std::mem::take(&mut self.positions);
         let mut before: HashMap<u32, &Option<Vector>> = HashMap::new();
-        for line in &positions {
-            if *before.entry(line.about).or_insert(&line.vector) != &line.vector {
-                return Err(Place::Line(line.number).fault(contradiction()));
+        for (number, about, vector) in &positions {
+            if *before.entry(*about).or_insert(vector) != vector {
+                return Err(Place::Line(*number).fault(contradiction()));
             }
         }
         let places = positions.iter();
-        let places = places.filter_map(|line| Some((line.about, line.vector.as_ref()?)));
+        let places = places.filter_map(|(_, about, vector)| Some((*about, vector.as_ref()?)));
         let (again, note) = at_one_place(places, graph, one_frame);
-        let all = positions.iter().map(|line| line.about);
+        let all = positions.iter().map(|line| line.1);
         let (alone, of_alone) = unmeasured(all, graph, one_frame);
         let note: Vec<String> = note.into_iter().chain(of_alone).collect();
-        let positions = positions.into_iter();
-        let mut positions = positions.filter(|line| !alone.contains(&line.about));
-        let Some(first) = positions.next() else {
-            return Ok(note);
-        };
-        for line in positions.filter(|line| !again.contains(&line.about)) {
-            let fault = |problem| Place::Line(line.number).fault(problem);
-            let vector = match line.vector.zip(first.vector) {
-                None => None,
-                Some((to, from)) => Some(between(from, to).map_err(fault)?),
-            };
-            if line.about != first.about {
-                self.pairs.push(Line {
-                    number: line.number,
-                    about: (first.about, line.about),
-                    vector,
-                });
-            } else if line.vector != first.vector {
-                return Err(fault(contradiction()));
+        let mut first = None;
+        for (number, about, place) in positions {
+            if alone.contains(&about) || again.contains(&about) {
+                continue;
+            }
+            let &mut (start, from) = first.get_or_insert((about, place));
+            if about != start {
+                let vector = place
+                    .zip(from)
+                    .map(|(to, from)| between(from, to))
+                    .transpose();
+                let vector = vector.map_err(|problem| Place::Line(number).fault(problem))?;
+                self.pairs.push((number, (start, about), vector));
             }
         }
         Ok(note)
@@ -206,8 +166,8 @@ impl Lines {
     /// The groups, with their vectors if there are any.
     fn known(&self, graph: &NamedGraph, one_frame: bool) -> Result<Displacements, Fault> {
         let nodes = graph.graph.nodes() as u32;
-        let pairs = self.pairs.iter().map(|line| line.about);
-        let given: Option<Vec<Vector>> = self.pairs.iter().map(|line| line.vector).collect();
+        let pairs = self.pairs.iter().map(|line| line.1);
+        let given: Option<Vec<Vector>> = self.pairs.iter().map(|line| line.2).collect();
         let Some(given) = given.filter(|given| !given.is_empty()) else {
             return Ok(Displacements::new(nodes, pairs).expect("pairs of the graph's nodes"));
         };
@@ -219,20 +179,19 @@ impl Lines {
         let known = known.and_then(|known| apart(known, graph, one_frame));
         known.map_err(|error| match error {
             VectorError::Contradiction { vector } => {
-                Place::Line(self.pairs[vector].number).fault(contradiction())
+                Place::Line(self.pairs[vector].0).fault(contradiction())
             }
             VectorError::SamePlace { first, second } => {
                 let [first, second] = [first, second].map(|v| graph.labels.label(v).into_owned());
-                Place::Input.fault(Problem::new(
-                    format!(
-                        "`{}` and `{}` are at one place",
-                        shown(&first),
-                        shown(&second)
-                    ),
-                    "two centres that are known to be one are one camera: leave one out",
-                ))
+                let what = format!(
+                    "`{}` and `{}` are at one place",
+                    shown(&first),
+                    shown(&second)
+                );
+                let remedy = "two centres that are known to be one are one camera: leave one out";
+                Problem::new(what, remedy).into()
             }
-            VectorError::TooLong => Place::Input.fault(long_vectors()),
+            VectorError::TooLong => long_vectors().into(),
             VectorError::Pair(_) => unreachable!("pairs of the graph's nodes"),
         })
     }
@@ -276,10 +235,6 @@ fn apart(
         }
     }
     Ok(known)
-}
-
-fn sorted((v, w): (u32, u32)) -> (u32, u32) {
-    (v.min(w), v.max(w))
 }
 
 /// A coordinate of a vector or a position.

@@ -19,7 +19,7 @@ use std::path::Path;
 use crate::cameras::for_each_line;
 use crate::edge_list::fields::split;
 use crate::edge_list::refusal::shown;
-use crate::error::{Fault, Place, Problem, ReadError};
+use crate::error::{Fault, Problem, ReadError};
 use crate::{NamedGraph, colmap, whole};
 use viewcert::graph::{Coordinate, Displacements, UnionFind};
 use viewcert::wording::counted;
@@ -69,13 +69,8 @@ pub fn given(path: Option<&Path>, input: &NamedGraph, one_frame: bool) -> Result
 
 /// Nothing is given that has a frame.
 fn no_frame(name: &str) -> ReadError {
-    let (option, why) = (
-        "--one-frame",
-        "no displacements and no positions are given that could have another frame",
-    );
-    Place::Input
-        .fault(Problem::unused(option, why))
-        .in_file(name)
+    let why = "no displacements and no positions are given that could have another frame";
+    Fault::from(Problem::unused("--one-frame", why)).in_file(name)
 }
 
 /// What the bytes of a file give.
@@ -99,7 +94,7 @@ fn given_in(
 /// The same with the rigs of the graph.
 fn joined(given: Given, name: &str, input: &NamedGraph) -> Result<Given, ReadError> {
     let known = with_rigs(given.known, input);
-    let known = known.map_err(|problem| Place::Input.fault(problem).in_file(name))?;
+    let known = known.map_err(|problem| Fault::from(problem).in_file(name))?;
     Ok(Given { known, ..given })
 }
 
@@ -173,10 +168,8 @@ pub fn cameras_beside(
 /// # Errors
 /// Known parts, or displacements with vectors, beside these base lines, which have none.
 pub fn with_rigs(known: Known, input: &NamedGraph) -> Result<Known, Problem> {
-    let groups = input
-        .frames
-        .as_ref()
-        .map_or(&[][..], |frames| &frames.groups);
+    let frames = input.frames.as_ref();
+    let groups = frames.map_or(&[][..], |frames| &frames.groups);
     if let Known::OwnFrame { given, .. } = known {
         let stars = stars(groups);
         let rigs = Displacements::new(input.graph.nodes() as u32, stars);
@@ -215,10 +208,9 @@ fn stars(groups: &[Vec<u32>]) -> impl Iterator<Item = (u32, u32)> + '_ {
 /// Positions that are all at one place.
 fn one_place(count: usize) -> Problem {
     let positions = counted(count, "camera");
+    let why = "images at one place have one position: two are needed";
     Problem::new(
-        format!(
-            "the positions of {positions} are one place, and images at one place have one position: two are needed"
-        ),
+        format!("the positions of {positions} are one place, and {why}"),
         POSITIONS,
     )
 }
@@ -246,10 +238,8 @@ fn unmeasured(
     one_frame: bool,
 ) -> (BTreeSet<u32>, Option<String>) {
     let pairs = input.graph.edges().iter().flat_map(|&(i, j)| [i, j]);
-    let rigs = input
-        .frames
-        .iter()
-        .flat_map(|frames| frames.groups.iter().flatten());
+    let frames = input.frames.iter();
+    let rigs = frames.flat_map(|frames| frames.groups.iter().flatten());
     let held: HashSet<u32> = pairs.chain(rigs.copied()).collect();
     let alone = nodes.filter(|node| one_frame && !held.contains(node));
     let alone: BTreeSet<u32> = alone.collect();
@@ -310,7 +300,7 @@ fn at_one_place<'p>(
 /// # Errors
 /// As there, but for the name of the file.
 pub fn read(input: impl Read, graph: &NamedGraph, one_frame: bool) -> Result<Given, Fault> {
-    let mut parts = parts::Lines::default();
+    let mut parts: Vec<Vec<u32>> = Vec::new();
     let mut displacements = displacements::Lines::default();
     let mut one_frame = one_frame;
     let mut fields = Vec::new();
@@ -320,23 +310,24 @@ pub fn read(input: impl Read, graph: &NamedGraph, one_frame: bool) -> Result<Giv
             return Ok(());
         };
         match &*word.text(line) {
-            PART => parts.take(number, line, fields, cameras)?,
-            DISPLACEMENT => displacements.take_pair(number, line, fields, cameras)?,
-            POSITION => displacements.take_position(number, line, fields, cameras)?,
+            PART => {
+                let nodes = fields.iter().map(|&field| cameras.named(field, line));
+                parts.push(nodes.collect::<Result<_, _>>()?);
+            }
+            word @ (DISPLACEMENT | POSITION) => {
+                let ends = 1 + usize::from(word == DISPLACEMENT);
+                displacements.take(ends, number, line, fields, cameras)?;
+            }
             ONE_FRAME if fields.is_empty() => one_frame = true,
             other if cameras::WORDS.contains(&other) => {
-                return Err(Problem::new(
-                    format!(
-                        "`{other}` gives a camera, and cameras are read from a file that holds nothing else, or from standard input (-)"
-                    ),
-                    "write one camera for each of the graph into a file of their own and name it",
-                ));
+                let what = "gives a camera, and cameras are read from a file that holds nothing else, or from standard input (-)";
+                let remedy =
+                    "write one camera for each of the graph into a file of their own and name it";
+                return Err(Problem::new(format!("`{other}` {what}"), remedy));
             }
             other => {
-                let what = format!(
-                    "the line begins with `{}`, not with part, displacement or position",
-                    shown(other)
-                );
+                let what = "not with part, displacement or position";
+                let what = format!("the line begins with `{}`, {what}", shown(other));
                 return Err(Problem::new(what, LINES));
             }
         }
@@ -349,16 +340,13 @@ pub fn read(input: impl Read, graph: &NamedGraph, one_frame: bool) -> Result<Giv
         }
     })?;
     match (parts.is_empty(), displacements.is_empty()) {
-        (true, true) => Err(Place::Input.fault(Problem::new("the file gives nothing", LINES))),
+        (true, true) => Err(Problem::new("the file gives nothing", LINES).into()),
         (true, false) => displacements.finish(graph, one_frame),
         (false, _) => {
             let nodes = graph.graph.nodes() as u32;
-            let NamedParts { parts, notes } =
-                parts.finish(nodes, true).expect("nodes of the graph");
-            Ok(Given {
-                known: Known::Parts(parts),
-                notes,
-            })
+            let found = NamedParts::of_nodes(nodes, parts).expect("nodes of the graph");
+            let (known, notes) = (Known::Parts(found.parts), found.notes);
+            Ok(Given { known, notes })
         }
     }
 }

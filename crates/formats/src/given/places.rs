@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::NamedGraph;
 use crate::edge_list::refusal::shown;
-use crate::error::{Fault, Place, Problem};
+use crate::error::{Fault, Problem};
 use viewcert::at_cameras::{CentreError, Centres};
 use viewcert::geometry::camera::Camera;
 use viewcert::geometry::model::Model as Question;
@@ -51,7 +51,7 @@ impl Read {
             )
         };
         let notes = self.notes;
-        let centres = centres.map_err(|error| Place::Input.fault(problem(error)))?;
+        let centres = centres.map_err(problem)?;
         Ok(GivenCameras { centres, notes })
     }
 }

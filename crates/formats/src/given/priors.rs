@@ -60,7 +60,7 @@ fn of(priors: &PosePriors, graph: &NamedGraph, one_frame: bool) -> Result<Given,
         match node(name) {
             Some(node) => {
                 let place = rounded(place, priors.on_earth);
-                let place = place.map_err(|_| Place::Input.fault(long_vectors()))?;
+                let place = place.map_err(|_| long_vectors())?;
                 known.insert(node, place);
             }
             None => strangers += 1,
@@ -73,7 +73,7 @@ fn of(priors: &PosePriors, graph: &NamedGraph, one_frame: bool) -> Result<Given,
     known.retain(|node, _| !again.contains(node) && !alone.contains(node));
     let first = known.iter().next();
     let Some((&first, &start)) = first.filter(|_| known.len() > 1) else {
-        return Err(Place::Input.fault(match count {
+        let problem = match count {
             0 | 1 => Problem::new(
                 format!(
                     "the pose priors of the database give {} of the graph a position, and two are needed",
@@ -82,7 +82,8 @@ fn of(priors: &PosePriors, graph: &NamedGraph, one_frame: bool) -> Result<Given,
                 POSITIONS,
             ),
             _ => one_place(count),
-        }));
+        };
+        return Err(problem.into());
     };
     let vectors: Result<Vec<_>, CoordinateError> = known
         .iter()
@@ -96,7 +97,7 @@ fn of(priors: &PosePriors, graph: &NamedGraph, one_frame: bool) -> Result<Given,
     let group = vectors
         .ok()
         .and_then(|vectors| Displacements::anywhere(nodes, vectors).ok());
-    let group = group.ok_or_else(|| Place::Input.fault(long_vectors()))?;
+    let group = group.ok_or_else(long_vectors)?;
     let notes = notes(priors, count, strangers, one_frame);
     Ok(Given {
         known: known_in(group, one_frame),

@@ -79,10 +79,7 @@ fn of_parts_what_counts_once_or_says_nothing_is_said() {
     assert_eq!(
         notes,
         [
-            "3 cameras are named again in their part and count once (first in line 2)",
-            "2 parts are of fewer than two cameras and say nothing (first in line 2)",
-            "1 part is given again and counts once",
-            "2 parts are inside of another one and add nothing",
+            "3 parts add nothing: of fewer than two cameras, or given again",
         ]
     );
     assert_eq!(parts("part 3\n", &numbers()).0, [[0; 0]; 0]);
@@ -104,8 +101,6 @@ fn of_displacements_what_counts_once_or_says_nothing_is_said() {
     assert_eq!(
         notes,
         [
-            "2 lines say again what others say, and count once",
-            "1 position is known, which says nothing about a single camera",
             "2 known displacements are of no pairs of the graph: their directions are known with them",
         ]
     );
@@ -123,10 +118,7 @@ fn vectors_and_positions_are_exact() {
     assert_eq!(groups, [vec![0, 1], vec![2, 3, 4]]);
     let expected = vec![vec![[-15, 0, 3]], vec![[30, 0, 0], [0, 0, 10]]];
     assert_eq!(vectors.as_ref(), Some(&expected));
-    assert_eq!(
-        notes,
-        ["1 line says again what another one says, and counts once"]
-    );
+    assert!(notes.is_empty(), "{notes:?}");
     // In another unit, and in other words.
     let pairs = [
         "a \"b c\" -50 0 10",

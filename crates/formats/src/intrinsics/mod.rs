@@ -175,10 +175,7 @@ pub fn read(input: impl Read, graph: &NamedGraph) -> Result<Intrinsics, Fault> {
             })
     })?;
     if is_empty {
-        return Err(Place::Input.fault(Problem::new(
-            "the file says nothing about intrinsics",
-            LINES,
-        )));
+        return Err(Problem::new("the file says nothing about intrinsics", LINES).into());
     }
     Ok(found.intrinsics())
 }
@@ -205,10 +202,6 @@ struct Found {
     of_node: Vec<Option<(usize, u64)>>,
     /// The class of all others, and whether they share a sensor.
     default: Option<(Class, bool)>,
-    /// How many cameras were named again, and the first line that did.
-    repeated: (usize, u64),
-    /// How many lines share a sensor among one camera, and the first of them.
-    alone: (usize, u64),
 }
 
 impl Found {
@@ -224,25 +217,19 @@ impl Found {
         is_shared: bool,
     ) -> Result<(), (usize, u64)> {
         let shared = (class, is_shared.then_some(number));
-        let mut own = 0;
+        let mut has_own = false;
         for (at, &node) in nodes.iter().enumerate() {
             let place = &mut self.of_node[node as usize];
             match *place {
-                Some((before, _)) if self.sensors[before] == shared => {
-                    first_of(&mut self.repeated, number);
-                }
+                Some((before, _)) if self.sensors[before] == shared => {}
                 Some((_, before)) => return Err((at, before)),
                 None => {
-                    if own == 0 || !is_shared {
+                    if !is_shared || !std::mem::replace(&mut has_own, true) {
                         self.sensors.push(shared);
                     }
-                    own += 1;
                     *place = Some((self.sensors.len() - 1, number));
                 }
             }
-        }
-        if is_shared && own == 1 {
-            first_of(&mut self.alone, number);
         }
         Ok(())
     }
@@ -255,18 +242,6 @@ impl Found {
             let them = counted(others, "camera");
             notes.push(format!(
                 "{them} of no class: taken for unknown (a line `default known` or the like says otherwise)"
-            ));
-        }
-        if let (count @ 1.., line) = self.repeated {
-            notes.push(format!(
-                "{} named again in its class (first in line {line})",
-                counted(count, "camera")
-            ));
-        }
-        if let (count @ 1.., line) = self.alone {
-            notes.push(format!(
-                "{} of a single camera, with which nothing is shared (first in line {line})",
-                counted(count, "sensor")
             ));
         }
         let mut of_node = Vec::with_capacity(self.of_node.len());
@@ -286,14 +261,6 @@ impl Found {
             notes,
         }
     }
-}
-
-/// Counts one more, and keeps the line of the first.
-fn first_of(count: &mut (usize, u64), line: u64) {
-    if count.0 == 0 {
-        count.1 = line;
-    }
-    count.0 += 1;
 }
 
 #[cfg(test)]

@@ -44,33 +44,35 @@ pub fn is_matlab(head: &[u8]) -> bool {
     version(head).is_some()
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Version {
-    Five,
-    BigEndian,
-    Hdf5,
-}
-
-fn version(head: &[u8]) -> Option<Version> {
+/// Whether the first bytes of a file are those of version 5 of this machine's byte order; nothing, if they are
+/// of no MATLAB file.
+fn version(head: &[u8]) -> Option<Result<(), Problem>> {
+    let hdf5 = || {
+        let what = "HDF5, as MATLAB writes it in version 7.3, is not read here";
+        let remedy =
+            "in Python: viewcert.verify(h5py.File('FILE')['A'][:]); or save it in MATLAB with -v7";
+        Some(Err(Problem::new(what, remedy)))
+    };
     if head.starts_with(HDF5_SIGNATURE) || head.starts_with(b"MATLAB 7.3 MAT-file") {
-        return Some(Version::Hdf5);
+        return hdf5();
     }
     match head.get(124..HEADER_LENGTH) {
-        Some([_, 1, b'I', b'M']) => Some(Version::Five),
-        Some([1, _, b'M', b'I']) => Some(Version::BigEndian),
-        Some([_, 2, b'I', b'M'] | [2, _, b'M', b'I']) => Some(Version::Hdf5),
-        _ => head
-            .starts_with(b"MATLAB 5.0 MAT-file")
-            .then_some(Version::Five),
+        Some([_, 1, b'I', b'M']) => Some(Ok(())),
+        Some([1, _, b'M', b'I']) => {
+            let what = "a MATLAB file of a big-endian machine is not read here";
+            Some(Err(Problem::new(what, "save it in MATLAB with -v7 or -v6")))
+        }
+        Some([_, 2, b'I', b'M'] | [2, _, b'M', b'I']) => hdf5(),
+        _ => head.starts_with(b"MATLAB 5.0 MAT-file").then_some(Ok(())),
     }
 }
 
 fn malformed(what: &str) -> Problem {
-    Problem::Corrupt(what.to_owned())
+    Problem::corrupt(what)
 }
 
 fn cut_off() -> Problem {
-    Problem::Truncated("the data of a variable end early".to_owned())
+    Problem::truncated("the data of a variable end early")
 }
 
 /// The next element of `rest`: its type and its bytes. Small ones hold these in the tag; deflated ones are
@@ -90,7 +92,7 @@ fn element<'a>(rest: &mut &'a [u8]) -> Result<(u32, &'a [u8]), Problem> {
     let length = u32::from_le_bytes(length) as usize;
     let data = body.get(..length).ok_or_else(|| {
         let there = body.len();
-        Problem::Truncated(format!(
+        Problem::truncated(format!(
             "a variable takes {length} bytes, {there} are there"
         ))
     })?;
@@ -121,7 +123,7 @@ fn inflated(element: &[u8]) -> Result<Vec<u8>, Problem> {
         let read = decoder.by_ref().take(count).read_to_end(&mut bytes);
         read.map_err(|error| match error.kind() {
             std::io::ErrorKind::UnexpectedEof => cut_off(),
-            _ => Problem::Corrupt(format!("the deflated data of a variable: {error}")),
+            _ => Problem::corrupt(format!("the deflated data of a variable: {error}")),
         })?;
         Ok(bytes)
     };
@@ -131,7 +133,7 @@ fn inflated(element: &[u8]) -> Result<Vec<u8>, Problem> {
     }
     let (length, available) = (u64::from(u32::from_le_bytes(length)), element.len() as u64);
     if length > DEFLATE_LIMIT * available {
-        return Err(Problem::Truncated(format!(
+        return Err(Problem::truncated(format!(
             "a variable takes {length} bytes, which {available} deflated bytes cannot hold"
         )));
     }
@@ -178,7 +180,7 @@ impl<'a> Variable<'a> {
         (self.flags, self.class) = (flags, flags as u8);
         if !(1..=OPAQUE).contains(&self.class) {
             let class = self.class;
-            return Err(Problem::Corrupt(format!("a variable of class {class}")));
+            return Err(Problem::corrupt(format!("a variable of class {class}")));
         }
         if self.class != OPAQUE {
             self.dimensions = words(element(&mut rest)?.1);
@@ -223,9 +225,8 @@ impl<'a> Variable<'a> {
                 "save its real part, or the matrix of its non-zero entries",
             ));
         }
-        let Some([rows, columns]) = self.numeric_shape() else {
-            return Err(matrix::not_square(&self.shape()));
-        };
+        let shape = self.numeric_shape();
+        let [rows, columns] = shape.ok_or_else(|| matrix::not_square(&self.shape()))?;
         let mut rest = &*self.values;
         let entries = match self.class {
             SPARSE => self.sparse(rows, columns, &mut rest)?,
@@ -239,24 +240,17 @@ impl<'a> Variable<'a> {
 
     fn full(&self, rows: u32, columns: u32, rest: &mut &[u8]) -> Result<Vec<Entry>, Problem> {
         let expected = u64::from(rows) * u64::from(columns);
-        let mut entries = Vec::new();
-        let (mut row, mut column, mut given) = (0, 0, 0);
-        for value in self.numbers(rest)? {
-            if value != 0.0 && given < expected {
-                entries.push((row, column, value));
-            }
-            given += 1;
-            row += 1;
-            if row == rows {
-                (row, column) = (0, column + 1);
-            }
+        let values: Vec<f64> = self.numbers(rest)?.collect();
+        if values.len() as u64 != expected {
+            let given = values.len();
+            let what = format!("a matrix of {rows}x{columns} has {given} values");
+            return Err(Problem::corrupt(what));
         }
-        if given != expected {
-            return Err(Problem::Corrupt(format!(
-                "a matrix of {rows}x{columns} has {given} values"
-            )));
-        }
-        Ok(entries)
+        let places = (0..columns).flat_map(|column| (0..rows).map(move |row| (row, column)));
+        let entries = places.zip(values).filter(|&(_, value)| value != 0.0);
+        Ok(entries
+            .map(|((row, column), value)| (row, column, value))
+            .collect())
     }
 
     fn sparse(&self, rows: u32, columns: u32, rest: &mut &[u8]) -> Result<Vec<Entry>, Problem> {
@@ -266,23 +260,15 @@ impl<'a> Variable<'a> {
         };
         let row_of: Vec<usize> = self.numbers(rest)?.map(index).collect::<Result<_, _>>()?;
         let starts: Vec<usize> = self.numbers(rest)?.map(index).collect::<Result<_, _>>()?;
-        if starts.len() as u64 != u64::from(columns) + 1 {
-            let found = starts.len();
-            return Err(Problem::Corrupt(format!(
-                "a sparse matrix of {columns} columns has {found} column starts"
-            )));
-        }
-        let count = starts[columns as usize];
-        if starts[0] != 0 || !starts.is_sorted() || count > row_of.len() {
+        let count = starts.last().copied().unwrap_or(0);
+        let are_starts = starts.len() as u64 == u64::from(columns) + 1 && starts.is_sorted();
+        if !are_starts || starts[0] != 0 || count > row_of.len() {
             return Err(malformed("the column starts of a sparse matrix"));
         }
         // Room for further entries may follow the last one.
         let values: Vec<f64> = self.numbers(rest)?.take(count).collect();
         if values.len() < count {
-            return Err(Problem::Corrupt(format!(
-                "a sparse matrix of {count} entries has {} values",
-                values.len()
-            )));
+            return Err(malformed("a sparse matrix has fewer values than entries"));
         }
         let mut entries = Vec::with_capacity(count);
         for (column, ends) in (0..).zip(starts.windows(2)) {
@@ -311,11 +297,8 @@ impl<'a> Variable<'a> {
                         "the length of an element is no multiple of its numbers'",
                     ));
                 }
-                Box::new(
-                    numbers
-                        .iter()
-                        .map(|&bytes| <$number>::from_le_bytes(bytes) as f64),
-                )
+                let number = |&bytes: &[u8; _]| <$number>::from_le_bytes(bytes) as f64;
+                Box::new(numbers.iter().map(number))
             }};
         }
         Ok(match kind {
@@ -329,7 +312,7 @@ impl<'a> Variable<'a> {
             9 => numbers!(f64),
             12 => numbers!(i64),
             13 => numbers!(u64),
-            kind => return Err(Problem::Corrupt(format!("numbers of type {kind}"))),
+            kind => return Err(Problem::corrupt(format!("numbers of type {kind}"))),
         })
     }
 
@@ -358,21 +341,17 @@ pub(super) fn read_noting(
 ) -> Result<Parsed, Fault> {
     let variables = variables(bytes)?;
     let variable = choose(&variables, name)?;
-    let graph = || match variable.numeric_shape() {
-        Some([rows, _]) if variable.is_square() => {
-            matrix::graph(rows, variable.entries()?, options).map(|(parsed, _)| parsed)
+    let graph = || {
+        let entries = variable.entries()?;
+        match variable.numeric_shape() {
+            Some([rows, columns]) if rows == columns => matrix::graph(rows, entries, options),
+            _ => Err(matrix::not_square(&variable.shape())),
         }
-        _ => match variable.entries() {
-            Ok(_) => Err(matrix::not_square(&variable.shape())),
-            Err(problem) => Err(problem),
-        },
     };
-    let mut parsed = graph().map_err(|problem| variable.fault(problem))?;
+    let (mut parsed, _) = graph().map_err(|problem| variable.fault(problem))?;
     if name.is_none() && variable.name != "A" {
-        let note = format!(
-            "the graph is the variable {}, the only one that can be",
-            variable.name
-        );
+        let name = &variable.name;
+        let note = format!("the graph is the variable {name}, the only one that can be");
         parsed.notes.insert(0, note);
     }
     parsed.read.format = "MATLAB matrix".into();
@@ -397,36 +376,20 @@ pub fn entries(bytes: &[u8], variable: &str) -> Result<Vec<(u32, u32, f64)>, Fau
 
 /// All variables of a file, in order; only what they are is read.
 fn variables(bytes: &[u8]) -> Result<Vec<Variable<'_>>, Fault> {
-    let fault = |problem| Place::Input.fault(problem);
-    match version(bytes) {
-        Some(Version::Five) => {}
-        Some(Version::BigEndian) => {
-            return Err(fault(Problem::new(
-                "a MATLAB file of a big-endian machine is not read here",
-                "save it in MATLAB with -v7 or -v6",
-            )));
-        }
-        Some(Version::Hdf5) => {
-            return Err(fault(Problem::new(
-                "HDF5, as MATLAB writes it in version 7.3, is not read here",
-                "in Python: viewcert.verify(h5py.File('FILE')['A'][:]); or save it in MATLAB with -v7",
-            )));
-        }
-        None => return Err(fault(malformed("this is not a MATLAB file"))),
-    }
+    version(bytes).unwrap_or_else(|| Err(malformed("this is not a MATLAB file")))?;
     let mut rest = bytes.get(HEADER_LENGTH..).ok_or_else(|| {
         let there = bytes.len();
         let what = format!("the header takes {HEADER_LENGTH} bytes, the file has {there}");
-        fault(Problem::Truncated(what))
+        Problem::truncated(what)
     })?;
     let mut variables = Vec::new();
     let mut names = BTreeSet::new();
     while !rest.is_empty() {
-        let (kind, content) = element(&mut rest).map_err(fault)?;
+        let (kind, content) = element(&mut rest)?;
         if kind != MATRIX && kind != COMPRESSED {
             continue;
         }
-        let variable = Variable::new(kind, content).map_err(fault)?;
+        let variable = Variable::new(kind, content)?;
         if !names.insert(variable.name.clone()) {
             return Err(variable.fault(malformed("there are two variables of this name")));
         }
@@ -442,43 +405,43 @@ fn choose<'v, 'a>(
     variables: &'v [Variable<'a>],
     asked: Option<&str>,
 ) -> Result<&'v Variable<'a>, Fault> {
-    let present = || match variables {
+    let describe = |v: &Variable| match v.is_numeric() {
+        true => format!("{} ({})", v.name, v.shape()),
+        false => format!("{} (no numbers)", v.name),
+    };
+    let present = match variables {
         [] => "no variables".to_owned(),
-        _ => {
-            let describe = |v: &Variable| match v.is_numeric() {
-                true => format!("{} ({})", v.name, v.shape()),
-                false => format!("{} (no numbers)", v.name),
-            };
-            let all: Vec<String> = variables.iter().map(describe).collect();
-            all.join(", ")
-        }
+        _ => variables
+            .iter()
+            .map(describe)
+            .collect::<Vec<_>>()
+            .join(", "),
     };
     let named = |name| variables.iter().find(|variable| variable.name == name);
     if let Some(variable) = named(asked.unwrap_or("A")) {
         return Ok(variable);
     }
     if let Some(name) = asked {
-        let what = format!("there is no such variable; the file holds {}", present());
+        let what = format!("there is no such variable; the file holds {present}");
         return Err(Place::Variable(name.to_owned()).fault(Problem::new(what, NAME)));
     }
     // A single number is no adjacency.
     let is_adjacency = |v: &&Variable| v.is_square() && v.dimensions[0] > 1;
     let squares: Vec<_> = variables.iter().filter(is_adjacency).collect();
-    let problem = match &squares[..] {
-        [variable] => return Ok(variable),
-        [] => Problem::new(
-            format!("there is no square matrix; the file holds {}", present()),
-            "save the adjacency matrix, or write pairs as text, one a line",
-        ),
-        _ => {
-            let (count, present) = (squares.len(), present());
-            Problem::new(
-                format!("no variable A and {count} square matrices; the file holds {present}"),
-                NAME,
-            )
+    match squares[..] {
+        [variable] => Ok(variable),
+        [] => {
+            let what = format!("there is no square matrix; the file holds {present}");
+            let remedy = "save the adjacency matrix, or write pairs as text, one a line";
+            Err(Problem::new(what, remedy).into())
         }
-    };
-    Err(Place::Input.fault(problem))
+        _ => {
+            let count = squares.len();
+            let what =
+                format!("no variable A and {count} square matrices; the file holds {present}");
+            Err(Problem::new(what, NAME).into())
+        }
+    }
 }
 
 #[cfg(test)]

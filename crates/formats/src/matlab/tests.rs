@@ -301,15 +301,15 @@ fn sparse_indices_that_contradict_each_other_are_refused() {
         refusal(&LITTLE.file(&[LITTLE.variable(SPARSE, &[2, 2], "A", &values)]))
     };
     for (rows, starts, values, problem) in [
-        (&[1, 0][..], &[0, 1][..], 2, "2 columns has 2 column starts"),
-        (&[1, 0], &[0, 1, 2, 2], 2, "2 columns has 4 column starts"),
+        (&[1, 0][..], &[0, 1][..], 2, "the column starts"),
+        (&[1, 0], &[0, 1, 2, 2], 2, "the column starts"),
         (&[1, 0], &[0, 1, 3], 3, "the column starts"),
         (&[1, 0], &[1, 1, 2], 2, "the column starts"),
         (&[1, 0], &[0, 2, 1], 2, "the column starts"),
         (&[1, 0], &[0, 1, -1], 2, "out of range"),
         (&[2, 0], &[0, 1, 2], 2, "the row numbers"),
         (&[1, 1, 0], &[0, 2, 3], 3, "the row numbers"),
-        (&[1, 0], &[0, 1, 2], 1, "2 entries has 1 values"),
+        (&[1, 0], &[0, 1, 2], 1, "fewer values than entries"),
     ] {
         let text = sparse(rows, starts, values);
         assert!(

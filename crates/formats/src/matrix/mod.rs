@@ -8,9 +8,10 @@
 //! whoever asks says from which weight on they count.
 
 use crate::edge_list::columns::ListOptions;
-use crate::error::Problem;
+use crate::error::{Kind, Problem};
 use crate::read_as::{Parsed, ReadAs};
-use viewcert::graph::{Graph, GraphError, Labels};
+use std::collections::HashSet;
+use viewcert::graph::{Graph, Labels};
 use viewcert::wording::counted;
 
 /// Row and column, from 0, and value.
@@ -37,21 +38,20 @@ pub(super) fn graph(
 ) -> Result<(Parsed, usize), Problem> {
     // What a few bytes promise takes no memory.
     if u64::from(size) > ISOLATED_LIMIT + entries.len() as u64 {
-        return Err(Problem::TooManyIsolated {
-            nodes: size.into(),
-            pairs: entries.len() / 2,
-            limit: ISOLATED_LIMIT,
-        });
+        let pairs = entries.len() / 2;
+        let what = format!(
+            "{size} nodes and {pairs} pairs: more than {ISOLATED_LIMIT} nodes without pairs"
+        );
+        return Err(Problem::of(Kind::Size, what, "leave out what has no pairs"));
     }
     if size == 0 {
-        return Err(Problem::NoNodes);
+        return Err(Problem::no_nodes());
     }
     if entries.len() > ENTRY_LIMIT {
-        return Err(Problem::TooManyPairs);
+        return Err(Problem::too_many_pairs());
     }
     if let Some(&(row, column, value)) = entries.iter().find(|entry| !entry.2.is_finite()) {
-        let (row, column) = (row + 1, column + 1);
-        return Err(no_number([row, column], value));
+        return Err(no_number([row + 1, column + 1], value));
     }
     let again = merge(&mut entries);
     let all = entries.len();
@@ -82,11 +82,7 @@ pub(super) fn graph(
 
 /// An entry that is not a number, or is infinite; rows and columns count from 1.
 pub(super) fn no_number([row, column]: [u32; 2], value: f64) -> Problem {
-    let what = if value.is_nan() {
-        "not a number (NaN)"
-    } else {
-        "infinite"
-    };
+    let what = ["infinite", "not a number (NaN)"][usize::from(value.is_nan())];
     let what = format!("entry ({row}, {column}) is {what}");
     Problem::new(what, "put zero where there is no pair")
 }
@@ -151,18 +147,12 @@ fn pattern(size: u32, entries: &[Entry]) -> Result<Graph, Problem> {
     if let Some((row, _)) = pairs.clone().find(|(row, column)| row == column) {
         return Err(diagonal(row));
     }
-    let below = pairs.clone().filter(|(row, column)| row > column);
-    let below: Vec<_> = below.map(|(row, column)| (column, row)).collect();
-    let mut above: Vec<_> = pairs.filter(|(row, column)| row < column).collect();
-    above.sort_unstable();
-    if below != above {
-        let same = below.iter().zip(&above).take_while(|(a, b)| a == b).count();
-        let (below, above) = (below.get(same), above.get(same));
-        let entry = match (below, above) {
-            (Some(below), above) if above.is_none_or(|above| below < above) => (below.1, below.0),
-            (_, above) => above.copied().unwrap_or_default(),
-        };
-        let (row, column) = (entry.0 + 1, entry.1 + 1);
+    let all: HashSet<(u32, u32)> = pairs.clone().collect();
+    if let Some((row, column)) = pairs
+        .clone()
+        .find(|&(row, column)| !all.contains(&(column, row)))
+    {
+        let (row, column) = (row + 1, column + 1);
         return Err(Problem::new(
             format!(
                 "the matrix is not symmetric: ({row}, {column}) is non-zero, ({column}, {row}) is zero"
@@ -171,20 +161,8 @@ fn pattern(size: u32, entries: &[Entry]) -> Result<Graph, Problem> {
              (A != 0) + (A != 0).T in SciPy",
         ));
     }
-    match Graph::from_pairs(size, below) {
-        Ok((graph, _)) => Ok(graph),
-        // The diagonal is empty and every row below the number of rows.
-        Err(GraphError::SelfLoop(node) | GraphError::OutOfRange { node, .. }) => {
-            Err(diagonal(node))
-        }
-    }
-}
-
-/// The least and the largest of numbers.
-fn range(numbers: impl Iterator<Item = f64>) -> (f64, f64) {
-    numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), x| {
-        (least.min(x), most.max(x))
-    })
+    let pairs = pairs.filter(|(row, column)| row < column);
+    Graph::new(size, pairs).map_err(Problem::corrupt)
 }
 
 /// A note on entries that say more than that they are there.
@@ -192,7 +170,11 @@ fn range(numbers: impl Iterator<Item = f64>) -> (f64, f64) {
 /// # Errors
 /// Numbers that may be something else than counts.
 fn describe(entries: &[Entry]) -> Result<Option<String>, Problem> {
-    let (least, most) = range(entries.iter().map(|entry| entry.2));
+    let values = entries.iter().map(|entry| entry.2);
+    let (least, most) = (
+        values.clone().fold(f64::MAX, f64::min),
+        values.fold(f64::MIN, f64::max),
+    );
     if least >= most {
         return Ok(None);
     }
@@ -213,11 +195,12 @@ fn describe(entries: &[Entry]) -> Result<Option<String>, Problem> {
 /// A number in a note.
 fn shown(value: f64) -> String {
     let size = value.abs();
-    if value.fract() == 0.0 && size < 1e15 {
-        format!("{value}")
-    } else if (1e-3..1e9).contains(&size) {
+    if value.fract() == 0.0 && size < 1e15 || (1e-3..1e9).contains(&size) {
         let digits = format!("{value:.4}");
-        digits.trim_end_matches('0').to_owned()
+        digits
+            .trim_end_matches('0')
+            .trim_end_matches('.')
+            .to_owned()
     } else {
         format!("{value:.3e}")
     }

@@ -57,7 +57,7 @@ pub(crate) fn fields<'a>(input: impl Read + 'a, encoding: Encoding) -> Box<dyn F
 }
 
 /// A binary file.
-pub(super) struct Binary<R> {
+struct Binary<R> {
     input: BufReader<R>,
     /// How many records are still to come, once their number is read.
     left: Option<u64>,
@@ -68,11 +68,11 @@ fn input(problem: Problem) -> Fault {
 }
 
 fn truncated(what: &str) -> Fault {
-    input(Problem::Truncated(format!("{what} is missing")))
+    input(Problem::truncated(format!("{what} is missing")))
 }
 
 impl<R: Read> Binary<R> {
-    pub(super) fn new(input: R) -> Self {
+    fn new(input: R) -> Self {
         let input = BufReader::with_capacity(1 << 16, input);
         Self { input, left: None }
     }
@@ -188,7 +188,7 @@ impl<R: Read> Fields for Binary<R> {
     }
 
     fn corrupt(&self, why: String) -> Fault {
-        input(Problem::Corrupt(why))
+        input(Problem::corrupt(why))
     }
 }
 

@@ -18,12 +18,12 @@ use std::path::Path;
 use viewcert::at_cameras::finished::Dyadic;
 use viewcert::linalg::rational::Rational;
 
-use crate::error::{Fault, Place, Problem, ReadError};
+use crate::error::{Fault, Problem, ReadError};
 use crate::tracks::Frames;
 
 pub(crate) use fields::{Encoding, Fields, fields};
 pub use posed::{Lens, Posed};
-pub(crate) use records::{each_point, frames, images, known, part, rigs};
+pub(crate) use records::{each_point, frames, images, known, rigs};
 
 /// A file of a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,14 +45,9 @@ const TITLES: [[&str; 2]; 5] = [
 ];
 
 impl Part {
-    /// What the file is called in messages.
-    pub(crate) fn title(self, encoding: Encoding) -> &'static str {
-        TITLES[self as usize][encoding as usize]
-    }
-
     /// The name of the file.
     pub(crate) fn file(self, encoding: Encoding) -> &'static str {
-        &self.title(encoding)["COLMAP's ".len()..]
+        &TITLES[self as usize][encoding as usize]["COLMAP's ".len()..]
     }
 
     /// Whether the file is in a folder.
@@ -68,7 +63,7 @@ impl Part {
         read: impl FnOnce(&mut dyn Fields) -> Result<T, Fault>,
     ) -> Result<T, Fault> {
         let name = self.file(encoding);
-        let file = File::open(folder.join(name)).map_err(|error| Place::Input.fault(error.into()));
+        let file = File::open(folder.join(name)).map_err(|error| Problem::from(error).into());
         let found = file.and_then(|file| read(&mut *fields(file, encoding)));
         found.map_err(|fault| within(name, fault))
     }
@@ -77,16 +72,14 @@ impl Part {
     fn bytes(self, folder: &Path, encoding: Encoding) -> Result<Vec<u8>, Fault> {
         let name = self.file(encoding);
         let bytes = std::fs::read(folder.join(name));
-        bytes.map_err(|error| within(name, Place::Input.fault(error.into())))
+        bytes.map_err(|error| within(name, Problem::from(error).into()))
     }
 }
 
 /// A fault in one of the files of a folder.
 fn within(file: &str, fault: Fault) -> Fault {
-    Place::Input.fault(Problem::Within {
-        part: format!("{file}{}", fault.place),
-        problem: Box::new(fault.problem),
-    })
+    let part = format!("{file}{}", fault.place);
+    fault.problem.within(&part).into()
 }
 
 /// How the model in a folder is written, if there is one; `.bin` goes first, as in COLMAP.
@@ -103,14 +96,17 @@ pub(crate) fn has_no_points(folder: &Path) -> bool {
     })
 }
 
-/// The folder of a model without points, if a path is that of its file of points.
-pub(crate) fn of_no_points(path: &Path) -> Option<&Path> {
+/// The folder of a model, if a path is that of one of its files.
+pub(crate) fn folder_of(path: &Path) -> Option<(&Path, &'static str)> {
     let folder = path.parent()?;
     // The folder of a bare name.
     let here = folder.as_os_str().is_empty();
     let folder = if here { Path::new(".") } else { folder };
-    let name = Part::Points.file(encoding_in(folder)?);
-    (path.file_name()? == name && has_no_points(folder)).then_some(folder)
+    let encoding = encoding_in(folder)?;
+    let titles = TITLES.iter().map(|titles| titles[encoding as usize]);
+    let name = path.file_name()?.to_str()?;
+    let mut titles = titles.filter(|title| title["COLMAP's ".len()..] == *name);
+    Some((folder, titles.next()?))
 }
 
 /// A model: who sees what, and everything else as it was written.
@@ -202,7 +198,7 @@ impl Model {
         let there = |part: Part, encoding| part.is_in(folder, encoding);
         let whole = |&encoding: &_| there(Part::Cameras, encoding) && there(Part::Images, encoding);
         let Some(encoding) = encoding_in(folder).filter(whole) else {
-            return Err(Place::Input.fault(no_model()));
+            return Err(no_model().into());
         };
         let images = Part::Images.read(folder, encoding, |fields| images(fields, true))?;
         let points = Part::Points.read(folder, encoding, |fields| {
@@ -244,7 +240,7 @@ impl Model {
             .iter()
             .map(|image| (image.id, image.points.len()));
         let features: HashMap<u32, usize> = features.collect();
-        let corrupt = |why| Place::Input.fault(Problem::Corrupt(why));
+        let corrupt = |why| Problem::corrupt(why).into();
         if features.len() < self.images.len() {
             return Err(corrupt("two images have one number".to_owned()));
         }

@@ -10,9 +10,9 @@
 use std::collections::{BTreeMap, HashMap};
 use std::io::{self, Write};
 
-use super::fields::{Binary, Encoding, Fields, Out};
-use super::{Datum, Frame, Image, Part, Point, numbers};
-use crate::error::{Fault, Place, Problem};
+use super::fields::{Encoding, Fields, Out};
+use super::{Datum, Frame, Image, Point, numbers};
+use crate::error::{Fault, Problem};
 use crate::tracks::{self, Frames, Pose, Rig};
 
 /// Bytes and fields.
@@ -287,8 +287,7 @@ pub(crate) fn known(
         }
     };
     let frames: Vec<_> = frames.iter().map(frame).collect();
-    tracks::read_frames(rigs, &frames, names)
-        .map_err(|why| Place::Input.fault(Problem::Corrupt(why)))
+    tracks::read_frames(rigs, &frames, names).map_err(|why| Problem::corrupt(why).into())
 }
 
 pub(super) fn write_images(
@@ -364,87 +363,4 @@ pub(super) fn write_frames(
         out.end()?;
     }
     out.flush()
-}
-
-/// Which binary file of a model begins with these bytes, which are all if `whole`: all records that can be
-/// seen are as they have to be, and, if all bytes are there, nothing is missing or left.
-pub(crate) fn part<'h>(head: &'h [u8], whole: bool) -> Option<Part> {
-    type Look<'a> = fn(&mut Binary<&'a [u8]>) -> Result<bool, Fault>;
-    let parts: [(Part, Look<'h>); 3] = [
-        (Part::Points, point_like),
-        (Part::Images, image_like),
-        (Part::Cameras, camera_like),
-    ];
-    let fits = |like: Look<'h>| {
-        let mut fields = Binary::new(head);
-        let mut any = false;
-        loop {
-            let found = match fields.record() {
-                Ok(false) => return any && whole,
-                Ok(true) => like(&mut fields),
-                Err(fault) => Err(fault),
-            };
-            match found {
-                Ok(true) => any = true,
-                Ok(false) => return false,
-                Err(fault) => return !whole && matches!(fault.problem, Problem::Truncated(_)),
-            }
-        }
-    };
-    let mut fitting = parts.into_iter().filter(|(_, like)| fits(*like));
-    let (part, _) = fitting.next()?;
-    fitting.next().is_none().then_some(part)
-}
-
-/// The sum of so many squares: finite, if the numbers are.
-fn squares(fields: &mut Binary<&[u8]>, count: usize) -> Result<f64, Fault> {
-    let mut sum = 0.0;
-    for _ in 0..count {
-        let number = fields.float("a number")?;
-        sum += if number.is_finite() {
-            number * number
-        } else {
-            f64::NAN
-        };
-    }
-    Ok(sum)
-}
-
-fn point_like(fields: &mut Binary<&[u8]>) -> Result<bool, Fault> {
-    fields.long("a point")?;
-    let place = squares(fields, 3)?;
-    fields.skip(3, "a colour")?;
-    let error = squares(fields, 1)?;
-    let length = fields.length("a track")?;
-    if (place + error).is_nan() {
-        return Ok(false);
-    }
-    fields.skip(8 * length, "a track")?;
-    Ok(true)
-}
-
-fn image_like(fields: &mut Binary<&[u8]>) -> Result<bool, Fault> {
-    fields.short("an image")?;
-    // A quaternion of length one, but for rounding.
-    let (norm, place) = (squares(fields, 4)?, squares(fields, 3)?);
-    fields.short("a camera")?;
-    if !(0.99..1.01).contains(&norm) || place.is_nan() {
-        return Ok(false);
-    }
-    let name = fields.name()?;
-    if name.is_empty() || name.contains(|c: char| c.is_ascii_control()) {
-        return Ok(false);
-    }
-    fields.skip_features()?;
-    Ok(true)
-}
-
-fn camera_like(fields: &mut Binary<&[u8]>) -> Result<bool, Fault> {
-    fields.short("a camera")?;
-    let model = fields.short("a model")?;
-    let size = [fields.length("a width")?, fields.length("a height")?];
-    match PARAMETERS.get(model as usize) {
-        Some(&count) if !size.contains(&0) => Ok(!squares(fields, count)?.is_nan()),
-        _ => Ok(false),
-    }
 }

@@ -59,7 +59,7 @@ fn nonsense_is_refused() {
     let refused = |rigs: &str, of_frames: &str| {
         found(rigs.as_bytes(), of_frames.as_bytes(), Encoding::Text).unwrap_err()
     };
-    assert_eq!(refused("4 x\n", FRAMES).place, Place::Line(1));
+    assert_eq!(refused("4 x\n", FRAMES).place, crate::error::Place::Line(1));
     refused(&RIGS.repeat(2), FRAMES);
     refused(RIGS, "1 5 1 0 0 0 0 0 0 1 CAMERA 1 11\n");
     refused(RIGS, "1 4 1 0 0 0 0 0 0 2 CAMERA 1 11 CAMERA 1 12\n");

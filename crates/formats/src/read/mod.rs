@@ -8,12 +8,12 @@ use std::path::Path;
 use std::str::FromStr;
 use std::sync::Arc;
 
-use crate::colmap::{self, Database, DatabaseError, DatabaseFacts, Pipeline};
+use crate::colmap::{self, Database, DatabaseFacts, Pipeline};
 use crate::documents::{self, Document};
 use crate::edge_list::Reading;
 use crate::edge_list::columns::{Columns, ListOptions};
 use crate::edge_list::decimal::Decimal;
-use crate::error::{Fault, Place, Problem, ReadError};
+use crate::error::{Fault, Kind as ProblemKind, Problem, ReadError};
 use crate::inflate::{Inflater, is_gzip};
 use crate::lines::{Encoding, LINE_LIMIT, Lines};
 use crate::matching::Matching;
@@ -89,17 +89,9 @@ pub enum Format {
 impl Format {
     /// The formats: the names on the command line, the first of which is printed, and what it reads.
     pub const ALL: [(Self, &'static [&'static str], &'static str); 9] = [
-        (
-            Self::Edges,
-            &["edges", "edge-list"],
-            "One pair a line: the first two fields, whatever follows; one field alone is a camera",
-        ),
+        (Self::Edges, &["edges", "edge-list"], EDGES),
         (Self::Graph6, &["graph6"], "One graph a line"),
-        (
-            Self::Sparse6,
-            &["sparse6"],
-            "One graph a line, incremental ones among them",
-        ),
+        (Self::Sparse6, &["sparse6"], "One graph a line"),
         (Self::Matlab, &["matlab"], "Adjacency matrix, MATLAB 5"),
         (
             Self::MatrixMarket,
@@ -109,12 +101,12 @@ impl Format {
         (
             Self::Document(Document::Stars),
             &["openmvg-pairs", "adjacency-list"],
-            "The first field of every line with each of the others: pairs and stars of OpenMVG, adjacency lists",
+            STARS,
         ),
         (
             Self::Document(Document::RawMatches),
             &["raw-matches"],
-            "Matches of features as COLMAP imports them: two names, and below them two numbers a line",
+            RAW_MATCHES,
         ),
         (Self::Document(Document::G2o), &["g2o"], "Pose graph of g2o"),
         (
@@ -124,6 +116,12 @@ impl Format {
         ),
     ];
 }
+
+const EDGES: &str =
+    "One pair a line: the first two fields, whatever follows; one field alone is a camera";
+const STARS: &str = "The first field of every line with each of the others: pairs and stars of OpenMVG, adjacency lists";
+const RAW_MATCHES: &str =
+    "Matches of features as COLMAP imports them: two names, and below them two numbers a line";
 
 impl FromStr for Format {
     type Err = UnknownFormat;
@@ -176,17 +174,15 @@ impl ReadOptions {
     /// What is said here, by the names of the command line: what reads the same file alike.
     pub fn given(&self) -> BTreeMap<String, String> {
         let list = &self.list;
-        let number = |number: Option<u32>| number.map(|number| number.to_string());
+        let number_of = |number: Option<u32>| number.map(|number| number.to_string());
         let yes = |is: bool| is.then(String::new);
-        let (tracks, default) = (self.tracks.as_ref(), TrackOptions::default());
-        let other = |number: u32, usual: u32| Some(number).filter(|number| *number != usual);
-        let views = tracks.and_then(|tracks| other(tracks.min_views, default.min_views));
-        let spread = tracks.and_then(|tracks| other(tracks.max_spread, default.max_spread));
+        let (tracks, default) = (self.tracks, TrackOptions::default());
+        let other = |number: u32, usual: u32| number_of(Some(number).filter(|it| *it != usual));
         let all = [
             ("format", self.format.map(|format| format.to_string())),
             ("variable", self.variable.clone()),
             ("pipeline", self.pipeline.map(|mapper| mapper.to_string())),
-            ("min-inliers", number(self.min_inliers)),
+            ("min-inliers", number_of(self.min_inliers)),
             ("columns", list.columns.as_ref().map(Columns::to_string)),
             (
                 "min-weight",
@@ -194,9 +190,15 @@ impl ReadOptions {
             ),
             ("skip-loops", yes(list.skip_loops)),
             ("tracks", yes(tracks.is_some())),
-            ("min-views", number(views)),
-            ("max-spread", number(spread)),
-            ("no-rigs", yes(tracks.is_some_and(|tracks| !tracks.rigs))),
+            (
+                "min-views",
+                tracks.and_then(|of| other(of.min_views, default.min_views)),
+            ),
+            (
+                "max-spread",
+                tracks.and_then(|of| other(of.max_spread, default.max_spread)),
+            ),
+            ("no-rigs", yes(tracks.is_some_and(|of| !of.rigs))),
         ];
         let said = all
             .into_iter()
@@ -212,36 +214,33 @@ impl ReadOptions {
         let mut options = Self::default();
         let mut tracks = TrackOptions::default();
         for (name, value) in given {
+            fn set<T: FromStr>(place: &mut Option<T>, value: &str) -> bool {
+                *place = value.parse().ok();
+                place.is_some()
+            }
+            let mut number = None;
             let known = match &**name {
-                "format" => value
-                    .parse()
-                    .map(|format| options.format = Some(format))
-                    .is_ok(),
-                "variable" => options.variable.replace(value.clone()).is_none(),
+                "format" => set(&mut options.format, value),
+                "variable" => set(&mut options.variable, value),
                 "pipeline" => {
                     let both = [Pipeline::Incremental, Pipeline::Global];
                     options.pipeline = both.into_iter().find(|mapper| mapper.name() == value);
                     options.pipeline.is_some()
                 }
-                "min-inliers" => value
-                    .parse()
-                    .map(|least| options.min_inliers = Some(least))
-                    .is_ok(),
-                "columns" => value
-                    .parse()
-                    .map(|of| options.list.columns = Some(of))
-                    .is_ok(),
-                "min-weight" => value
-                    .parse()
-                    .map(|least| options.list.min_weight = Some(least))
-                    .is_ok(),
+                "min-inliers" => set(&mut options.min_inliers, value),
+                "columns" => set(&mut options.list.columns, value),
+                "min-weight" => set(&mut options.list.min_weight, value),
                 "skip-loops" => !std::mem::replace(&mut options.list.skip_loops, true),
                 "tracks" => true,
-                "min-views" => value.parse().map(|least| tracks.min_views = least).is_ok(),
-                "max-spread" => value.parse().map(|most| tracks.max_spread = most).is_ok(),
+                "min-views" | "max-spread" => set(&mut number, value),
                 "no-rigs" => std::mem::take(&mut tracks.rigs),
                 _ => false,
             };
+            match (&**name, number) {
+                ("min-views", Some(least)) => tracks.min_views = least,
+                (_, Some(most)) => tracks.max_spread = most,
+                _ => {}
+            }
             if !known {
                 return Err(name.clone());
             }
@@ -288,9 +287,14 @@ pub fn read_graphs(path: impl AsRef<Path>, options: &ReadOptions) -> Graphs {
     let open = move || match path.to_str() {
         Some("-") => graphs(name, std::io::stdin(), options),
         _ if path.is_dir() => Box::new(std::iter::once(folder(&path, &options))),
-        _ => match File::open(&path) {
-            Ok(file) => graphs_at(Some(&path), name, file, options),
-            Err(error) => failed(&name, Place::Input.fault(Problem::Unreadable(error))),
+        _ => match (model::folder_of(&path), File::open(&path)) {
+            (Some((folder, title)), _) if options.format.is_none() => {
+                let of_part = || Problem::foreign(title, recognise::COLMAP);
+                let found = in_model(folder, &options, of_part);
+                Box::new(std::iter::once(tracks_called(&name, found)))
+            }
+            (_, Ok(file)) => graphs_at(Some(&path), name, file, options),
+            (_, Err(error)) => failed(&name, Problem::unreadable(&error).into()),
         },
     };
     let graphs = std::iter::once_with(open).flatten();
@@ -315,14 +319,14 @@ fn graphs_at(
 ) -> Graphs {
     let sampled = match sampled(Box::new(input)) {
         Ok(sampled) => sampled,
-        Err(problem) => return failed(&name, Place::Input.fault(problem)),
+        Err(problem) => return failed(&name, Fault::from(problem)),
     };
     if !is_gzip(&sampled.head) {
         return of_sampled(path, name, sampled, options);
     }
     let inner = match sampled_again(sampled) {
         Ok(inner) => inner,
-        Err(problem) => return failed(&name, Place::Input.fault(problem)),
+        Err(problem) => return failed(&name, Fault::from(problem)),
     };
     let graphs = of_sampled(None, name, inner, options);
     Box::new(graphs.map(move |graph| {
@@ -391,32 +395,22 @@ fn sampled_again(outer: Sampled) -> Result<Sampled, Problem> {
 }
 
 fn of_sampled(path: Option<&Path>, name: String, sampled: Sampled, options: ReadOptions) -> Graphs {
-    if options.format.is_none()
-        && let Some(folder) = path.and_then(model::of_no_points)
-    {
-        let graph = tracks::read_folder(folder, options.tracks.unwrap_or_default());
-        return Box::new(std::iter::once(tracks_called(&name, graph)));
-    }
     if let Some(tracks) = options.tracks
         && !sampled.head.starts_with(colmap::MAGIC)
     {
-        let graph = tracks_of(path, &name, sampled, &options, tracks);
+        let graph = tracks_of(&name, sampled, &options, tracks);
         return Box::new(std::iter::once(graph));
     }
     let edges = match options.format {
         Some(Format::Edges) => Reading::Lenient,
         _ => Reading::Strict,
     };
+    let guessed = false;
+    let lines = |encoding| Kind::Lines { encoding, guessed };
     let kind = match options.format {
         Some(Format::Edges) => Ok(None),
-        Some(Format::Graph6) => Ok(Some(Kind::Lines {
-            encoding: Encoding::Graph6,
-            guessed: false,
-        })),
-        Some(Format::Sparse6) => Ok(Some(Kind::Lines {
-            encoding: Encoding::Sparse6,
-            guessed: false,
-        })),
+        Some(Format::Graph6) => Ok(Some(lines(Encoding::Graph6))),
+        Some(Format::Sparse6) => Ok(Some(lines(Encoding::Sparse6))),
         Some(Format::Matlab) => Ok(Some(Kind::Matlab)),
         Some(Format::MatrixMarket) => Ok(Some(Kind::MatrixMarket)),
         Some(Format::Document(document)) => Ok(Some(Kind::Document(document))),
@@ -442,7 +436,7 @@ fn of_sampled(path: Option<&Path>, name: String, sampled: Sampled, options: Read
         Ok(Some(Kind::Document(document))) => {
             documents::read_with(document, sampled.into_input(), &options.list)
         }
-        Err(problem) => Err(Place::Input.fault(problem)),
+        Err(problem) => Err(Fault::from(problem)),
     };
     match one {
         Ok(parsed) => Box::new(std::iter::once(Ok(NamedGraph {
@@ -460,12 +454,12 @@ fn list(sampled: Sampled, reading: Reading, options: &ListOptions) -> Result<Par
     let read = edge_list::read_with(sampled.into_input(), (&head, whole), reading, options);
     read.map_err(|Fault { place, problem }| {
         let named = match reading {
-            Reading::Strict if problem.is_grammar() => recognise::likely(&head, whole),
+            Reading::Strict if problem.kind == ProblemKind::Form => recognise::likely(&head, whole),
             _ => None,
         };
         match named {
-            Some(problem) => Place::Input.fault(problem),
-            None if head.contains(&0) => Place::Input.fault(Problem::Nul),
+            Some(problem) => Fault::from(problem),
+            None if head.contains(&0) => Problem::control(&head, 0).into(),
             None => place.fault(problem),
         }
     })
@@ -482,26 +476,28 @@ fn ensure_used(options: &ReadOptions, kind: Option<Kind>) -> Result<(), Problem>
         _ => [false; 2],
     };
     let (list, is_database) = (&options.list, kind == Some(Kind::Sqlite));
+    let is_list = !of_tracks && matches!(kind, None | Some(Kind::Text));
     let no_database = "this is no COLMAP database";
+    let is_unused = |given: bool, is_used: bool| given && !is_used;
+    let variable = is_unused(options.variable.is_some(), kind == Some(Kind::Matlab));
+    let pipeline = is_unused(options.pipeline.is_some(), is_database);
+    let inliers = is_unused(options.min_inliers.is_some(), is_database);
+    let weight = is_unused(list.min_weight.is_some(), has_weights);
     let rules = [
         (
             "--format",
             options.format.is_some() && of_tracks,
             "tracks are known by their content",
         ),
-        (
-            "--variable",
-            options.variable.is_some() && kind != Some(Kind::Matlab),
-            "this is no MATLAB file",
-        ),
+        ("--variable", variable, "this is no MATLAB file"),
         (
             "--columns",
-            list.columns.is_some() && (of_tracks || !matches!(kind, None | Some(Kind::Text))),
+            is_unused(list.columns.is_some(), is_list),
             "this is no list of pairs",
         ),
         (
             "--min-weight",
-            list.min_weight.is_some() && !has_weights,
+            weight,
             "no weights are read from such a file",
         ),
         (
@@ -509,16 +505,8 @@ fn ensure_used(options: &ReadOptions, kind: Option<Kind>) -> Result<(), Problem>
             list.skip_loops && !has_loops,
             "of such a file no pairs are left out by that",
         ),
-        (
-            "--pipeline",
-            options.pipeline.is_some() && !is_database,
-            no_database,
-        ),
-        (
-            "--min-inliers",
-            options.min_inliers.is_some() && !is_database,
-            no_database,
-        ),
+        ("--pipeline", pipeline, no_database),
+        ("--min-inliers", inliers, no_database),
     ];
     match rules.into_iter().find(|(_, is_unused, _)| *is_unused) {
         Some((option, _, why)) => Err(Problem::unused(option, why)),
@@ -540,7 +528,7 @@ pub fn open_database(
     is_meant.then(|| {
         let name = path.display().to_string();
         ensure_used(options, Some(Kind::Sqlite))
-            .map_err(|problem| Place::Input.fault(problem).in_file(&name))?;
+            .map_err(|problem| Fault::from(problem).in_file(&name))?;
         Database::open(&name, path, options)
     })
 }
@@ -551,10 +539,7 @@ fn database(
     name: &str,
     options: &ReadOptions,
 ) -> Result<NamedGraph, ReadError> {
-    let no_file = || {
-        let fault = Place::Input.fault(DatabaseError::NoFile.into());
-        fault.in_file(name)
-    };
+    let no_file = || Fault::from(colmap::error::no_file()).in_file(name);
     // A pipe by its path, as /dev/stdin, was read already.
     let path = path.filter(|path| path.is_file()).ok_or_else(no_file)?;
     let database = Database::open(name, path, options)?;
@@ -568,46 +553,50 @@ fn database(
 
 /// The camera-point graph of an input.
 fn tracks_of(
-    path: Option<&Path>,
     name: &str,
     sampled: Sampled,
     options: &ReadOptions,
     tracks: TrackOptions,
 ) -> Result<NamedGraph, ReadError> {
     let (head, whole) = (sampled.head.clone(), sampled.whole);
-    let read = || tracks::read(&head, whole, path, sampled.into_input(), tracks);
-    let used = ensure_used(options, None).map_err(|problem| Place::Input.fault(problem));
-    tracks_called(name, used.and_then(|()| read()))
+    let used = ensure_used(options, None).map_err(Fault::from);
+    let read = used.and_then(|()| tracks::read(&head, whole, sampled.into_input(), tracks));
+    tracks_called(name, read)
 }
 
 /// What is in a folder.
 fn folder(folder: &Path, options: &ReadOptions) -> Result<NamedGraph, ReadError> {
     let name = &folder.display().to_string();
-    let is_model = model::encoding_in(folder).is_some();
-    let inside = if is_model {
-        Vec::new()
-    } else {
-        inside(folder, DEPTH)
+    let found = match model::encoding_in(folder) {
+        Some(_) => in_model(folder, options, Problem::model),
+        None => Err(match &inside(folder, DEPTH)[..] {
+            [] if options.tracks.is_some() => model::no_model().into(),
+            [] => Problem::unreadable(&std::io::ErrorKind::IsADirectory.into()).into(),
+            inside => {
+                let what = format!("this is a folder that holds {}", inside.join(", "));
+                let kind = ProblemKind::Holds(inside.into());
+                let remedy = "name one of these (a model is read with --tracks)";
+                Problem::of(kind, what, remedy).into()
+            }
+        }),
     };
-    if !inside.is_empty() {
-        return Err(Place::Input.fault(Problem::Holds(inside)).in_file(name));
-    }
+    tracks_called(name, found)
+}
+
+/// The tracks of a model, if they are asked for or there are none.
+fn in_model(
+    folder: &Path,
+    options: &ReadOptions,
+    refused: impl FnOnce() -> Problem,
+) -> Result<NamedGraph, Fault> {
     match options.tracks {
         None if model::has_no_points(folder) => {
-            let graph = tracks::read_folder(folder, TrackOptions::default());
-            tracks_called(name, graph)
+            tracks::read_folder(folder, TrackOptions::default())
         }
+        None => Err(refused().into()),
         Some(tracks) => {
-            let used = ensure_used(options, None).map_err(|problem| Place::Input.fault(problem));
-            tracks_called(
-                name,
-                used.and_then(|()| tracks::read_folder(folder, tracks)),
-            )
-        }
-        None if is_model => Err(Place::Input.fault(Problem::Model).in_file(name)),
-        None => {
-            let error = std::io::ErrorKind::IsADirectory.into();
-            Err(Place::Input.fault(Problem::Unreadable(error)).in_file(name))
+            ensure_used(options, None)?;
+            tracks::read_folder(folder, tracks)
         }
     }
 }
@@ -652,7 +641,7 @@ fn failed(name: &str, fault: Fault) -> Graphs {
 fn all(mut input: impl Read) -> Result<Vec<u8>, Fault> {
     let mut bytes = Vec::new();
     let done = input.read_to_end(&mut bytes);
-    done.map_err(|error| Place::Input.fault(error.into()))?;
+    done.map_err(|error| Fault::from(Problem::from(error)))?;
     Ok(bytes)
 }
 

@@ -8,7 +8,7 @@ use std::io::Read;
 use super::graph::{TrackGraph, TrackOptions, numbered};
 use super::words::Words;
 use crate::NamedGraph;
-use crate::error::{Fault, Place, Problem};
+use crate::error::Fault;
 use viewcert::graph::Lists;
 
 pub(super) fn read<R: Read>(
@@ -35,9 +35,7 @@ pub(super) fn read<R: Read>(
     let mut graph = TrackGraph::new(numbered(cameras), options)?;
     let views = Lists::group(points as usize, views.iter().copied());
     for point in 0..views.len() {
-        graph
-            .push(views.of(point))
-            .map_err(|problem: Problem| Place::Input.fault(problem))?;
+        graph.push(views.of(point))?;
     }
     graph.finish()
 }

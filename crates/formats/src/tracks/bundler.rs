@@ -9,7 +9,7 @@ use std::io::Read;
 use super::graph::{TrackGraph, TrackOptions, numbered};
 use super::words::Words;
 use crate::NamedGraph;
-use crate::error::{Fault, Place};
+use crate::error::Fault;
 
 /// Focal length, two coefficients of distortion, rotation, translation.
 const NUMBERS_OF_A_CAMERA: u64 = 15;
@@ -54,9 +54,7 @@ pub(super) fn points_of<R: Read>(
             views.push(nodes[camera as usize]);
             words.skip(3, "a view of a point")?;
         }
-        graph
-            .push(&views)
-            .map_err(|problem| Place::Input.fault(problem))?;
+        graph.push(&views)?;
     }
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! Tracks that count, as a graph of cameras and points.
 
 use crate::NamedGraph;
-use crate::error::{Fault, Place, Problem};
+use crate::error::{Fault, Problem};
 use crate::tracks::Frames;
 use serde::{Deserialize, Serialize};
 use viewcert::graph::{Graph, Labels};
@@ -82,10 +82,10 @@ impl TrackGraph {
     /// No camera at all, or more than nodes can be numbered.
     pub(crate) fn new(cameras: Vec<Box<str>>, options: TrackOptions) -> Result<Self, Fault> {
         if cameras.is_empty() {
-            return Err(Place::Input.fault(Problem::Corrupt("it has no cameras".into())));
+            return Err(Problem::corrupt("it has no cameras").into());
         }
         if u32::try_from(cameras.len()).is_err() {
-            return Err(Place::Input.fault(Problem::TooManyNodes));
+            return Err(Problem::too_many_nodes().into());
         }
         Ok(Self {
             facts: TrackFacts {
@@ -112,7 +112,10 @@ impl TrackGraph {
     /// # Panics
     /// If a node is no camera.
     pub(crate) fn push(&mut self, views: &[u32]) -> Result<(), Problem> {
-        self.track = self.track.checked_add(1).ok_or(Problem::TooManyNodes)?;
+        self.track = self
+            .track
+            .checked_add(1)
+            .ok_or_else(Problem::too_many_nodes)?;
         let mut twice = false;
         for &camera in views {
             twice |= std::mem::replace(&mut self.stamp[camera as usize], self.track) == self.track;
@@ -133,7 +136,10 @@ impl TrackGraph {
     /// # Panics
     /// If a node is no camera.
     pub(crate) fn push_merged(&mut self, views: &[u32]) -> Result<(), Problem> {
-        self.track = self.track.checked_add(1).ok_or(Problem::TooManyNodes)?;
+        self.track = self
+            .track
+            .checked_add(1)
+            .ok_or_else(Problem::too_many_nodes)?;
         self.facts.merged += 1;
         let mut cameras = views.to_vec();
         cameras.dedup();
@@ -169,7 +175,7 @@ impl TrackGraph {
         self.views.extend_from_slice(views);
         self.ends.push(self.views.len());
         if self.views.len() > i32::MAX as usize {
-            return Err(Problem::TooManyPairs);
+            return Err(Problem::too_many_pairs());
         }
         Ok(())
     }
@@ -180,16 +186,13 @@ impl TrackGraph {
     /// No track at all, or more nodes than can be numbered.
     pub(crate) fn finish(mut self) -> Result<NamedGraph, Fault> {
         if self.track == 0 {
-            return Err(Place::Input.fault(Problem::NoPoints {
-                what: "a model of COLMAP",
-                advice: KNOWN_POSES,
-                cameras: self.cameras.len(),
-            }));
+            let cameras = self.cameras.len();
+            return Err(Problem::no_points("a model of COLMAP", KNOWN_POSES, cameras).into());
         }
         self.unite();
         let cameras = self.cameras.len() as u32;
         let nodes = u32::try_from(self.cameras.len() + self.ends.len())
-            .map_err(|_| Place::Input.fault(Problem::TooManyNodes))?;
+            .map_err(|_| Problem::too_many_nodes())?;
         self.facts.points = self.ends.len();
         self.facts.observations = self.views.len();
         let blind = self.degree.iter().filter(|&&degree| degree == 0);
@@ -212,8 +215,7 @@ impl TrackGraph {
             }
             from = end;
         }
-        let (graph, _) = Graph::from_pairs(nodes, edges)
-            .map_err(|error| Place::Input.fault(Problem::Corrupt(error.to_string())))?;
+        let (graph, _) = Graph::from_pairs(nodes, edges).map_err(Problem::corrupt)?;
         let labels = Labels::CamerasAndPoints(self.cameras);
         Ok(NamedGraph {
             frames: self.frames.map(Box::new),
@@ -319,7 +321,7 @@ pub(super) fn sorted(names: Vec<Box<str>>) -> Result<(Vec<Box<str>>, Vec<u32>), 
     named.sort_unstable();
     if let Some(two) = named.windows(2).find(|two| two[0].0 == two[1].0) {
         let name = &two[0].0;
-        return Err(Problem::Corrupt(format!("two cameras are called `{name}`")));
+        return Err(Problem::corrupt(format!("two cameras are called `{name}`")));
     }
     let mut nodes = vec![0; named.len()];
     for (node, (_, place)) in (0..).zip(&named) {

@@ -32,7 +32,7 @@ impl Joined {
     /// The element of a feature.
     fn element(&mut self, image: u32, feature: u32) -> Result<usize, Problem> {
         if feature >= MOST_FEATURES {
-            return Err(Problem::Corrupt(format!(
+            return Err(Problem::corrupt(format!(
                 "a feature has the number {feature}"
             )));
         }
@@ -43,7 +43,8 @@ impl Joined {
         }
         if features[feature] == 0 {
             let element = self.sets.push();
-            features[feature] = u32::try_from(element + 1).map_err(|_| Problem::TooManyNodes)?;
+            features[feature] =
+                u32::try_from(element + 1).map_err(|_| Problem::too_many_nodes())?;
         }
         Ok(features[feature] as usize - 1)
     }

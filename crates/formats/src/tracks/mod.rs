@@ -1,6 +1,6 @@
 //! Tracks: points that are seen in several images.
 //!
-//! In: COLMAP's models, Bundler's `bundle.out`, BAL, NVM, matches of OpenMVG and AliceVision, models of both, tracks
+//! In: COLMAP's models, Bundler's `bundle.out`, BAL, NVM, matches and models of OpenMVG, models of AliceVision, tracks
 //! of OpenSfM, or the matches of a database ([`colmap`](crate::colmap)). Out: the camera-point graph (docs/theory.md, section 12):
 //! nodes are the cameras and behind them the points, edges the observations of every track that
 //! counts, and a summary of those that do not ([`TrackFacts`]). Which of the files it is, is told
@@ -32,58 +32,44 @@ pub(crate) use kind::{TrackFile, by_first_words, kind};
 use std::io::Read;
 use std::path::Path;
 
-use crate::error::{Fault, Place, Problem};
+use crate::error::{Fault, Kind, Problem};
 use crate::{NamedGraph, ReadAs};
-use kind::MODEL;
 use words::Words;
 
 /// The camera-point graph of an input that begins with `head`, which is all of it if `whole`.
-/// Other files of a model are looked for beside `path`, if there is one. Linear in the bytes.
+/// Linear in the bytes.
 ///
 /// # Errors
 /// An input without tracks, or whose tracks contradict it; where.
 pub(crate) fn read(
     head: &[u8],
     whole: bool,
-    path: Option<&Path>,
     input: impl Read,
     options: TrackOptions,
 ) -> Result<NamedGraph, Fault> {
     let Some(kind) = kind(head, whole) else {
-        return Err(Place::Input.fault(Problem::new(
-            "no tracks are found in this file",
-            "they come from a COLMAP database or model, Bundler's bundle.out, BAL, NVM, and files of OpenMVG, AliceVision \
-             and OpenSfM; leave out \
-             --tracks to decide a graph of pairs",
-        )));
+        let remedy = "they come from a COLMAP database or model, Bundler's bundle.out, BAL, NVM, and files of OpenMVG, AliceVision \
+                      and OpenSfM; leave out --tracks to decide a graph of pairs";
+        return Err(Problem::new("no tracks are found in this file", remedy).into());
     };
-    let is_model = matches!(kind, TrackFile::Colmap { .. });
-    if !options.rigs && !is_model {
-        let (option, why) = ("--no-rigs", "such a file holds no rigs");
-        return Err(Place::Input.fault(Problem::unused(option, why)));
+    if !options.rigs {
+        return Err(Problem::unused("--no-rigs", "such a file holds no rigs").into());
     }
     ensure_no_spread(options)?;
     let graph = match kind {
         TrackFile::Bal => bal::read(Words::new(input), options),
         TrackFile::Bundler => bundler::read(Words::new(input), options),
         TrackFile::Nvm => nvm::read(Words::new(input), options),
-        TrackFile::OpenMvgMatches => openmvg::read(Words::new(input), false, options),
-        TrackFile::AliceVisionMatches => openmvg::read(Words::new(input), true, options),
+        TrackFile::OpenMvgMatches => openmvg::read(Words::new(input), options),
         TrackFile::OpenMvg => pipelines::openmvg(input, options),
         TrackFile::AliceVision => pipelines::alicevision(input, options),
         TrackFile::OpenSfm => pipelines::opensfm(Words::new(input), options),
-        TrackFile::Colmap { part, encoding } => {
-            let folder = path.map(|path| path.parent().unwrap_or(Path::new("")));
-            model::beside(folder, part, encoding, input, options)
-        }
     };
-    let graph = graph.map_err(|fault| match (&fault.problem, kind) {
-        (Problem::NoPoints { .. }, TrackFile::Colmap { .. }) => fault,
-        (&Problem::NoPoints { cameras, .. }, _) => Place::Input.fault(Problem::NoPoints {
-            what: kind.name(),
-            advice: "write it with its points, or decide the pairs of its images, from a list or a database",
-            cameras,
-        }),
+    let graph = graph.map_err(|fault| match fault.problem.kind {
+        Kind::NoPoints(cameras) => {
+            let advice = "write it with its points, or decide the pairs of its images, from a list or a database";
+            Problem::no_points(kind.name(), advice, cameras).into()
+        }
         _ => fault,
     })?;
     Ok(NamedGraph {
@@ -97,7 +83,7 @@ fn ensure_no_spread(options: TrackOptions) -> Result<(), Fault> {
     let (option, why) = ("--max-spread", "this is no COLMAP database");
     match options.max_spread == TrackOptions::default().max_spread {
         true => Ok(()),
-        false => Err(Place::Input.fault(Problem::unused(option, why))),
+        false => Err(Problem::unused(option, why).into()),
     }
 }
 
@@ -109,7 +95,7 @@ pub(crate) fn read_folder(folder: &Path, options: TrackOptions) -> Result<NamedG
     ensure_no_spread(options)?;
     let graph = model::folder(folder, options)?;
     Ok(NamedGraph {
-        read: ReadAs::new(MODEL),
+        read: ReadAs::new("model of COLMAP"),
         ..graph
     })
 }

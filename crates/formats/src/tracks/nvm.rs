@@ -10,7 +10,7 @@ use super::bundler::points_of;
 use super::graph::{TrackGraph, TrackOptions, sorted};
 use super::words::{Words, integer};
 use crate::NamedGraph;
-use crate::error::{Fault, Place, Problem};
+use crate::error::Fault;
 
 /// Focal length, quaternion, centre, distortion, and a zero.
 const NUMBERS_OF_A_CAMERA: usize = 10;
@@ -32,8 +32,7 @@ pub(super) fn read<R: Read>(
             .ok_or_else(|| words.corrupt("a line of a camera holds a file name and ten numbers"))?;
         names.push(name);
     }
-    let input = |problem: Problem| Place::Input.fault(problem);
-    let (names, nodes) = sorted(names).map_err(input)?;
+    let (names, nodes) = sorted(names)?;
     let mut graph = TrackGraph::new(names, options)?;
     // A file of cameras alone may end here.
     let points = match words.next_full_line()? {

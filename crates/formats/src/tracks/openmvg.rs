@@ -1,5 +1,4 @@
-//! OpenMVG's matches as text: `I J`, a number, and so many lines `k l`; and AliceVision's: `I J`, a number, and so many
-//! blocks of the name of a describer, a number, and so many lines `k l`.
+//! OpenMVG's matches as text: `I J`, a number, and so many lines `k l`.
 //!
 //! Feature k of view I is feature l of view J. Views are called by their numbers, and a view
 //! without matches is not in the file. Every match counts: thresholds are those with which the file
@@ -12,20 +11,15 @@ use super::Joined;
 use super::graph::{TrackGraph, TrackOptions};
 use super::words::{Words, integer, shown};
 use crate::NamedGraph;
-use crate::error::{Fault, Place, Problem};
-
-/// AliceVision has fifteen kinds of features.
-const MOST_DESCRIBERS: u32 = 16;
+use crate::error::Fault;
 
 pub(super) fn read<R: Read>(
     mut words: Words<R>,
-    of_describers: bool,
     options: TrackOptions,
 ) -> Result<NamedGraph, Fault> {
     let mut views: Vec<u64> = Vec::new();
     let mut places: HashMap<u64, u32> = HashMap::new();
     let mut joined = Joined::new(0);
-    let mut describers: HashMap<Vec<u8>, u32> = HashMap::new();
     let mut place = |view, joined: &mut Joined| {
         *places.entry(view).or_insert_with(|| {
             joined.push_image();
@@ -50,34 +44,11 @@ pub(super) fn read<R: Read>(
             return Err(words.corrupt(format!("view {first} is matched with itself")));
         }
         let (first, second) = (place(first, &mut joined), place(second, &mut joined));
-        let count = words.number("the number of matches")?;
-        let (blocks, kinds) = match of_describers {
-            true => (count, MOST_DESCRIBERS),
-            false => (1, 1),
-        };
-        for _ in 0..blocks {
-            // Each describer counts its features from 0.
-            let (above, count) = match of_describers {
-                false => (0, count),
-                true => {
-                    let name = words.word()?.unwrap_or_default().to_vec();
-                    let known = describers.len() as u32;
-                    let place = *describers.entry(name).or_insert(known);
-                    (place, words.number("the number of matches")?)
-                }
-            };
-            if above >= kinds {
-                return Err(words.corrupt("there are too many kinds of features"));
-            }
-            for _ in 0..count {
-                let most = u64::from(u32::MAX / kinds);
-                let mut feature = || words.number_below(most, "the number of a feature");
-                let place = |feature: u32| feature * kinds + above;
-                let (a, b) = (place(feature()?), place(feature()?));
-                joined
-                    .join((first, a), (second, b))
-                    .map_err(|problem| Place::Input.fault(problem))?;
-            }
+        let most = u64::from(u32::MAX);
+        for _ in 0..words.number("the number of matches")? {
+            let a = words.number_below(most, "the number of a feature")?;
+            let b = words.number_below(most, "the number of a feature")?;
+            joined.join((first, a), (second, b))?;
         }
     }
     let mut order: Vec<u32> = (0..views.len() as u32).collect();
@@ -90,8 +61,6 @@ pub(super) fn read<R: Read>(
         .iter()
         .map(|&view| views[view as usize].to_string().into());
     let mut graph = TrackGraph::new(names.collect(), options)?;
-    joined
-        .tracks(&nodes, None, &mut graph)
-        .map_err(|problem: Problem| Place::Input.fault(problem))?;
+    joined.tracks(&nodes, None, &mut graph)?;
     graph.finish()
 }

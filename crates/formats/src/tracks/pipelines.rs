@@ -134,10 +134,10 @@ fn folder(path: &str) -> &str {
 fn json<T: DeserializeOwned>(mut input: impl Read) -> Result<T, Fault> {
     let mut text = Vec::new();
     let read = input.read_to_end(&mut text);
-    read.map_err(|error| Place::Input.fault(error.into()))?;
+    read.map_err(Problem::from)?;
     serde_json::from_slice(&text).map_err(|error| {
         let line = Place::Line(error.line() as u64);
-        line.fault(Problem::Corrupt(error.to_string()))
+        line.fault(Problem::corrupt(error))
     })
 }
 
@@ -147,20 +147,15 @@ fn graph<Id: Eq + std::hash::Hash + std::fmt::Display>(
     points: Vec<Vec<Id>>,
     options: TrackOptions,
 ) -> Result<NamedGraph, Fault> {
-    let input = |problem: Problem| Place::Input.fault(problem);
     if points.is_empty() {
-        return Err(input(Problem::NoPoints {
-            what: "",
-            advice: "",
-            cameras: views.len(),
-        }));
+        return Err(Problem::no_points("", "", views.len()).into());
     }
     let seen: HashSet<&Id> = points.iter().flatten().collect();
     let (cameras, others): (Vec<_>, Vec<_>) = views
         .iter()
         .partition(|(id, _, posed)| *posed || seen.contains(id));
     let names = cameras.iter().map(|(_, name, _)| name.as_str().into());
-    let (names, nodes) = sorted(names.collect()).map_err(input)?;
+    let (names, nodes) = sorted(names.collect())?;
     let places = cameras.iter().map(|(id, ..)| id).zip(nodes);
     let places: HashMap<&Id, u32> = places.collect();
     let mut graph = TrackGraph::new(names, options)?;
@@ -168,15 +163,11 @@ fn graph<Id: Eq + std::hash::Hash + std::fmt::Display>(
         let node = |id: &Id| {
             let found = places.get(id).copied();
             found.ok_or_else(|| {
-                Problem::Corrupt(format!("a point is seen by view {id}, which is not listed"))
+                Problem::corrupt(format!("a point is seen by view {id}, which is not listed"))
             })
         };
-        let views: Vec<u32> = point
-            .iter()
-            .map(node)
-            .collect::<Result<_, _>>()
-            .map_err(input)?;
-        graph.push(&views).map_err(input)?;
+        let views: Vec<u32> = point.iter().map(node).collect::<Result<_, _>>()?;
+        graph.push(&views)?;
     }
     let mut graph = graph.finish()?;
     if !others.is_empty() {
@@ -193,7 +184,6 @@ pub(super) fn opensfm<R: Read>(
     mut words: Words<R>,
     options: TrackOptions,
 ) -> Result<NamedGraph, Fault> {
-    let input = |problem: Problem| Place::Input.fault(problem);
     words.next_full_line()?;
     let mut images: HashMap<Box<str>, u32> = HashMap::new();
     let mut tracks: HashMap<Box<str>, Vec<u32>> = HashMap::new();
@@ -216,13 +206,13 @@ pub(super) fn opensfm<R: Read>(
     let mut named: Vec<(Box<str>, u32)> = images.into_iter().collect();
     named.sort_unstable_by_key(|(_, image)| *image);
     let names = named.into_iter().map(|(name, _)| name).collect();
-    let (names, nodes) = sorted(names).map_err(input)?;
+    let (names, nodes) = sorted(names)?;
     let mut graph = TrackGraph::new(names, options)?;
     let mut tracks: Vec<(Box<str>, Vec<u32>)> = tracks.into_iter().collect();
     tracks.sort_unstable();
     for (_, track) in tracks {
         let views: Vec<u32> = track.iter().map(|&image| nodes[image as usize]).collect();
-        graph.push(&views).map_err(input)?;
+        graph.push(&views)?;
     }
     graph.finish()
 }

@@ -1,7 +1,7 @@
 use std::io::Cursor;
 
 use super::*;
-use crate::model::{self, Encoding, Part};
+use crate::model::{self, Encoding};
 use crate::read::graphs;
 use crate::{ReadError, ReadOptions};
 use proptest::prelude::*;
@@ -53,12 +53,6 @@ fn files_are_known_by_their_beginning() {
     let known = |bytes: &[u8]| kind(bytes, true);
     assert_eq!(known(b"\n2 1 2\n0 0 1 2\n1 0 1 2\n"), Some(TrackFile::Bal));
     assert_eq!(known(b"0 1\n1\n5 5\n"), Some(TrackFile::OpenMvgMatches));
-    let text = |part| {
-        let encoding = Encoding::Text;
-        Some(TrackFile::Colmap { part, encoding })
-    };
-    assert_eq!(known(b"1 0.5 -1 4 9 9 9 0.1 1 0 2 0\n"), text(Part::Points));
-    assert_eq!(known(b"1 1 0 0 0 0 0 0 1 a b.jpg\n\n"), text(Part::Images));
     for pairs in [
         &b"0 1\n1 2\n"[..],
         b"a b\n",
@@ -92,18 +86,6 @@ fn what_is_broken_is_said_with_its_line() {
         (b"# Bundle file v0.3\n", "the number of cameras is missing"),
         (b"# Bundle file v0.3\n0 0\n", "it has no cameras"),
         (b"NVM_V3\n1\na.jpg 1 2\n0\n", "a file name and ten numbers"),
-        (
-            b"1 0.5 -1 4 9 9 9 0.1 1 0 2\n1 0.5 -1 4 9 9 9 0.1 1 0 2 0\n",
-            "no tracks are found",
-        ),
-        (
-            b"1 0.5 -1 4 9 9 9 0.1 1 0\n1 0.5 -1 4 9 9 9 0.1 1 0 2\n",
-            "in:2: the file is corrupt: a feature of a track is missing",
-        ),
-        (
-            b"1 1 0 0 0 0 0 0 1 a b.jpg\n\n",
-            "points3D.bin or points3D.txt, which holds the tracks",
-        ),
     ] {
         let message = message(text);
         assert!(message.contains(phrase), "{phrase}: {message}");
@@ -131,22 +113,14 @@ fn points(count: u64, length: u64) -> Vec<u8> {
 
 #[test]
 fn binary_files_hold_what_they_promise() {
-    let graph = tracks(&points(1, 2), 2).unwrap();
-    assert_eq!(graph.graph.edges(), [(0, 2), (1, 2)]);
-    assert_eq!(graph.labels.label(1), "8");
-    assert_eq!(graph.labels.label(2), "point 1");
-    // Too few or too many bytes are no such file.
-    for bytes in [points(2, 2), points(1, 3), points(1, 1), points(1 << 50, 2)] {
-        assert!(message(&bytes).contains("no tracks are found"));
-    }
-    // Nor does a reader that is sure of it believe the numbers.
-    for (count, length) in [(2, 2), (1, 3), (1, 1), (u64::MAX, 2), (1, u64::MAX)] {
+    let read = |count, length| {
         let mut fields = model::fields(Cursor::new(points(count, length)), Encoding::Binary);
-        assert!(model::each_point(&mut *fields, |_| ()).is_err());
+        model::each_point(&mut *fields, |point| assert_eq!(point.track[0], (3, 0)))
+    };
+    assert!(read(1, 2).is_ok());
+    for (count, length) in [(2, 2), (1, 3), (1, 1), (u64::MAX, 2), (1, u64::MAX)] {
+        assert!(read(count, length).is_err());
     }
-    let mut nan = points(1, 2);
-    nan[16..24].copy_from_slice(&f64::NAN.to_le_bytes());
-    assert!(message(&nan).contains("no tracks are found"));
 }
 
 /// An image and a feature of it.

@@ -34,12 +34,12 @@ impl<R: Read> Words<R> {
 
     /// A refusal at this line.
     pub(crate) fn corrupt(&self, why: impl Into<String>) -> Fault {
-        Place::Line(self.number).fault(Problem::Corrupt(why.into()))
+        Place::Line(self.number).fault(Problem::corrupt(why.into()))
     }
 
     /// A refusal since the text ends here.
     pub(crate) fn truncated(&self, missing: &str) -> Fault {
-        Place::Line(self.number).fault(Problem::Truncated(format!("{missing} is missing")))
+        Place::Line(self.number).fault(Problem::truncated(format!("{missing} is missing")))
     }
 
     /// Goes to the next line; whether there is one.
@@ -51,14 +51,13 @@ impl<R: Read> Words<R> {
             .by_ref()
             .take(LINE_LIMIT + 1)
             .read_until(b'\n', &mut self.line)
-            .map_err(|error| Place::Input.fault(error.into()))?;
+            .map_err(Problem::from)?;
         if got == 0 {
             return Ok(false);
         }
         self.number += 1;
         if got as u64 > LINE_LIMIT {
-            let limit = LINE_LIMIT;
-            return Err(Place::Line(self.number).fault(Problem::LineTooLarge { limit }));
+            return Err(Place::Line(self.number).fault(Problem::long_line(LINE_LIMIT)));
         }
         if self.number == 1 && self.line.starts_with(BYTE_ORDER_MARK) {
             self.at = BYTE_ORDER_MARK.len();
