@@ -4,16 +4,14 @@
 //! quotes and comments are those of edge lists (docs/input.md).
 
 use std::collections::HashMap;
-use std::fs::File;
 use std::io::Read;
-use std::path::Path;
 
 use crate::NamedGraph;
 use crate::colmap;
 use crate::edge_list::fields::{Field, integer};
 use crate::edge_list::refusal::shown;
 use crate::edge_list::{BYTE_ORDER_MARK, text};
-use crate::error::{Fault, Place, Problem, ReadError};
+use crate::error::{Fault, Place, Problem};
 use crate::own_files;
 use crate::recognise::SAMPLE;
 use viewcert::graph::Labels;
@@ -66,26 +64,6 @@ impl<'a> Cameras<'a> {
             )
         })
     }
-}
-
-/// Reads a file (`-` is standard input); its notes begin with its name.
-pub(crate) fn read_file<T>(
-    path: &Path,
-    read: impl FnOnce(&mut dyn Read) -> Result<T, Fault>,
-    notes: impl FnOnce(&mut T) -> &mut Vec<String>,
-) -> Result<T, ReadError> {
-    let name = path.display().to_string();
-    let found = if path == Path::new("-") {
-        read(&mut std::io::stdin().lock())
-    } else {
-        let file = File::open(path).map_err(|error| Problem::from(error).into());
-        file.and_then(|mut file| read(&mut file))
-    };
-    let mut found = found.map_err(|fault| fault.in_file(&name))?;
-    for note in notes(&mut found) {
-        *note = format!("{name}: {note}");
-    }
-    Ok(found)
 }
 
 /// Goes through the lines of a text, from line 1 on, with the cameras of a graph.

@@ -52,12 +52,7 @@ pub use viewcert::wording::printable;
 
 /// A note about pairs that were merged, if any were.
 fn merged(count: usize) -> Option<String> {
-    let (pairs, are) = match count {
-        0 => return None,
-        1 => ("pair", "is"),
-        _ => ("pairs", "are"),
-    };
-    Some(format!(
-        "{count} {pairs} {are} given again, the same or reversed, and merged"
-    ))
+    let are = if count == 1 { "is" } else { "are" };
+    let pairs = viewcert::wording::counted(count, "pair");
+    (count > 0).then(|| format!("{pairs} {are} given again, the same or reversed, and merged"))
 }

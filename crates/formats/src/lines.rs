@@ -1,16 +1,14 @@
 //! Files with a graph a line: graph6 and sparse6.
 
-use std::fmt::Display;
 use std::io::{BufRead, BufReader, Read};
 
 use crate::edge_list::BYTE_ORDER_MARK;
 use crate::error::{Fault, Kind, Place, Problem, ReadError};
-use crate::sparse6::{self, Sparse6Error};
-use crate::{NamedGraph, ReadAs};
+use crate::{NamedGraph, ReadAs, sparse6};
 use viewcert::graph::{Graph, Labels, graph6};
 
 /// The longest line that is read: graph6 of about 113,000 nodes.
-pub(super) const LINE_LIMIT: u64 = 1 << 30;
+const LINE_LIMIT: u64 = 1 << 30;
 
 /// Which of the two encodings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,11 +78,14 @@ impl<R: Read> Lines<R> {
             if got as u64 > LINE_LIMIT {
                 return Err(Place::Line(self.line).fault(Problem::long_line(LINE_LIMIT)));
             }
-            let mut text = trimmed(line);
+            let mut text = line.trim_ascii();
             if self.line == 1 {
-                text = trimmed(text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text));
+                text = text
+                    .strip_prefix(BYTE_ORDER_MARK)
+                    .unwrap_or(text)
+                    .trim_ascii();
                 let header = self.encoding.header().as_bytes();
-                text = trimmed(text.strip_prefix(header).unwrap_or(text));
+                text = text.strip_prefix(header).unwrap_or(text).trim_ascii();
             }
             if !text.is_empty() {
                 let start = text.as_ptr().addr() - line.as_ptr().addr();
@@ -99,32 +100,22 @@ impl<R: Read> Lines<R> {
     fn graph(&self, line: &[u8]) -> Result<(Graph, Vec<String>), Problem> {
         let remedy = "write the line again, or have it written: `verify convert GRAPH --to graph6` (where other \
                       formats are read, --format names them)";
-        let none = |error: &dyn Display, kind| Problem::of(kind, error.to_string(), remedy);
+        let line_of = |problem: Problem| Problem::of(problem.kind, problem.what, remedy);
         let (graph, merged) = match self.encoding {
-            Encoding::Graph6 => (
-                graph6::decode(line).map_err(|error| none(&error, Kind::Line))?,
-                0,
-            ),
-            Encoding::Sparse6 => sparse6::decode(line).map_err(|error| match error {
-                Sparse6Error::TooLarge { .. } => none(&error, Kind::LineSize),
-                _ => none(&error, Kind::Line),
-            })?,
+            Encoding::Graph6 => {
+                let graph = graph6::decode(line);
+                (
+                    graph.map_err(|error| Problem::of(Kind::Line, error.to_string(), remedy))?,
+                    0,
+                )
+            }
+            Encoding::Sparse6 => sparse6::decode(line).map_err(line_of)?,
         };
         match graph.nodes() {
             0 => Err(Problem::no_nodes()),
             _ => Ok((graph, Vec::from_iter(crate::merged(merged)))),
         }
     }
-}
-
-/// A line without its end and the blanks around it.
-pub(super) fn trimmed(line: &[u8]) -> &[u8] {
-    let line = line.strip_suffix(b"\n").unwrap_or(line);
-    let mut line = line.strip_suffix(b"\r").unwrap_or(line);
-    while let [b' ' | b'\t', rest @ ..] | [rest @ .., b' ' | b'\t'] = line {
-        line = rest;
-    }
-    line
 }
 
 impl<R: Read> Iterator for Lines<R> {

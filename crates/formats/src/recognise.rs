@@ -3,15 +3,13 @@
 //! Nothing here makes a list of pairs of a text: its reader does, strictly. What is named here at once
 //! might pass for a list; [`likely`] only gives a name to a text that the reader has refused.
 
-use std::collections::HashSet;
-
 use crate::documents::Document;
 use crate::edge_list::BYTE_ORDER_MARK;
 use crate::edge_list::fields::{integer, is_number};
 use crate::edge_list::table::is_own;
 use crate::error::Problem;
 use crate::inflate::is_gzip;
-use crate::lines::{Encoding, trimmed};
+use crate::lines::Encoding;
 use crate::tracks;
 use crate::{colmap, matlab, matrix_market, own_files, sparse6};
 use viewcert::graph::graph6;
@@ -77,7 +75,9 @@ pub(super) fn kind(head: &[u8], whole: bool) -> Result<Kind, Problem> {
     }
     let guessed = true;
     // A first line that is promised to be longer than any that is read.
-    if !whole && missing(head).is_some() {
+    if !whole
+        && graph6::line_length(head.trim_ascii()).is_some_and(|length| length > head.len() as u128)
+    {
         let encoding = Encoding::Graph6;
         return Ok(Kind::Lines { encoding, guessed });
     }
@@ -94,20 +94,8 @@ pub(super) fn kind(head: &[u8], whole: bool) -> Result<Kind, Problem> {
     Ok(Kind::Text)
 }
 
-/// How many more bytes decide whether an input that begins with `head` is graph6: a single line
-/// may be longer than what is looked at.
-pub(super) fn missing(head: &[u8]) -> Option<u64> {
-    let text = head.strip_prefix(BYTE_ORDER_MARK).unwrap_or(head);
-    let length = graph6::line_length(trimmed(text))?;
-    // With the line's end: then the line is complete, or longer than it may be.
-    let wanted = u64::try_from(length).ok()?.checked_add(2)?;
-    wanted
-        .checked_sub(text.len() as u64)
-        .filter(|more| *more > 0)
-}
-
 /// Whether all bytes are such that a line of graph6 may hold.
-pub(super) fn in_alphabet(bytes: &[u8]) -> bool {
+fn in_alphabet(bytes: &[u8]) -> bool {
     bytes.iter().all(|b| (63..=126).contains(b))
 }
 
@@ -120,7 +108,7 @@ fn lines(head: &[u8], whole: bool) -> impl Iterator<Item = &[u8]> {
     };
     head[..end]
         .split(|&b| b == b'\n')
-        .map(trimmed)
+        .map(<[u8]>::trim_ascii)
         .filter(|line| !line.is_empty())
 }
 
@@ -130,7 +118,7 @@ fn every_line(head: &[u8], whole: bool, is: impl Fn(&[u8]) -> bool) -> bool {
         return lines.all(is);
     }
     // A single line that goes on.
-    !whole && is(trimmed(head))
+    !whole && is(head.trim_ascii())
 }
 
 /// A refusal by name.
@@ -348,32 +336,8 @@ fn words(text: &str, whole: bool) -> Option<Problem> {
     }
     let are_numbers = |line: &Vec<&str>| line.iter().all(|word| is_number(word.as_bytes()));
     let is_row = |line: &Vec<&str>| line.len() == lines.len() && are_numbers(line);
-    if whole && lines.len() > 2 && lines.iter().all(is_row) {
-        let advice = "in Python: viewcert.verify(numpy.loadtxt('FILE')), with delimiter=',' if commas separate";
-        return Some(foreign("a matrix as text", advice));
-    }
-    are_stars(&lines).then(|| {
-        foreign(
-            "a list of neighbours, as OpenMVG and AliceVision write them",
-            "say --format openmvg-pairs if every line joins its first number with each of the others",
-        )
-    })
-}
-
-/// Whether lines are numbers in increasing order and of different lengths, as are the first ones, some of
-/// which other lines have.
-fn are_stars(lines: &[Vec<&str>]) -> bool {
-    let numbers = lines
-        .iter()
-        .map(|line| line.iter().map(|word| integer(word)).collect());
-    let Some(lines) = numbers.collect::<Option<Vec<Vec<u64>>>>() else {
-        return false;
-    };
-    let firsts: HashSet<u64> = lines.iter().map(|line| line[0]).collect();
-    let goes_on = |line: &Vec<u64>| line[1..].iter().any(|other| firsts.contains(other));
-    lines.iter().all(|line| line.is_sorted_by(|a, b| a < b))
-        && lines.is_sorted_by(|one, next| one[0] < next[0])
-        && lines.iter().any(|line| line.len() > 3)
-        && lines.iter().any(|line| line.len() != lines[0].len())
-        && lines.iter().any(goes_on)
+    let is_matrix = whole && lines.len() > 2 && lines.iter().all(is_row);
+    let advice =
+        "in Python: viewcert.verify(numpy.loadtxt('FILE')), with delimiter=',' if commas separate";
+    is_matrix.then(|| foreign("a matrix as text", advice))
 }

@@ -82,8 +82,7 @@ impl<'a> Views<'a> {
             while let Some(row) = rows.next()? {
                 let id: i64 = row.get(0)?;
                 if let Some(&node) = nodes.get(&id) {
-                    cameras[node as usize] = camera(row)?;
-                    plain[node as usize] = is_plain(row)?;
+                    (cameras[node as usize], plain[node as usize]) = camera(row)?;
                     let prior: Option<i64> = row.get(3)?;
                     priors[node as usize] = prior.is_some_and(|prior| prior != 0);
                 }
@@ -260,49 +259,51 @@ impl Camera {
     }
 }
 
-/// The camera of a row, unless its model is that of a fisheye, or a number is missing.
-fn camera(row: &Row) -> Result<Option<Camera>, Problem> {
+/// Models of cameras with a plane: their number in COLMAP, how many focal lengths they have, and how many parameters.
+/// The principal point follows the focal lengths.
+const PLANES: [(i64, usize, usize); 8] = [
+    (0, 1, 3),
+    (1, 2, 4),
+    (2, 1, 4),
+    (3, 1, 5),
+    (4, 2, 8),
+    (6, 2, 12),
+    (12, 1, 4),
+    (13, 2, 5),
+];
+/// Models from here on divide: whatever their parameters, they count as distorted.
+const DIVISION: i64 = 12;
+
+/// The camera of a row, unless its model is that of a fisheye, or a number is missing; and whether it has all its
+/// parameters, and no distortion.
+fn camera(row: &Row) -> Result<(Option<Camera>, bool), Problem> {
     let model: i64 = row.get(1)?;
     let parameters = doubles(row.get_ref(2)?);
-    let numbers = match (model, &parameters[..]) {
-        (SPHERICAL, &[width, height, ..]) => {
-            let size = [width, height];
-            let is_size = size.iter().all(|&side| side.is_finite() && side > 0.0);
-            return Ok(is_size.then_some(Camera::Sphere(size)));
-        }
-        // Models 0, 2, 3 and 12 of COLMAP have one focal length, 1, 4, 6 and 13 have two; all then have
-        // the principal point.
-        (0 | 2 | 3 | 12, &[f, u, v, ..]) => [f, f, u, v],
-        (1 | 4 | 6 | 13, &[x, y, u, v, ..]) => [x, y, u, v],
-        _ => return Ok(None),
+    if let (SPHERICAL, &[width, height, ..]) = (model, &parameters[..]) {
+        let is_size = [width, height]
+            .iter()
+            .all(|side| side.is_finite() && *side > 0.0);
+        return Ok((is_size.then_some(Camera::Sphere([width, height])), false));
+    }
+    let Some((_, lengths, all)) = PLANES.into_iter().find(|(number, ..)| *number == model) else {
+        return Ok((None, false));
     };
-    let [x, y, u, v] = numbers;
-    let is_camera = numbers.iter().all(|number| number.is_finite()) && x > 0.0 && y > 0.0;
-    Ok(is_camera.then_some(Camera::Plane(Plane {
-        focal: [x, y],
-        centre: [u, v],
-    })))
-}
-
-/// Whether a camera has a model with a plane, all its parameters, and no distortion.
-fn is_plain(row: &Row) -> Result<bool, Problem> {
-    // Focal lengths, and parameters in all.
-    let (focal, all) = match row.get(1)? {
-        0i64 => (1, 3),
-        1 => (2, 4),
-        2 => (1, 4),
-        3 => (1, 5),
-        4 => (2, 8),
-        6 => (2, 12),
-        _ => return Ok(false),
+    let Some(&[u, v]) = parameters
+        .get(lengths..)
+        .and_then(|rest| rest.first_chunk())
+    else {
+        return Ok((None, false));
     };
-    let numbers = doubles(row.get_ref(2)?);
-    let is_plain = |(k, &x): (usize, &f64)| match k {
-        k if k < focal => x > 0.0 && x.is_finite(),
-        k if k < focal + 2 => x.is_finite(),
-        _ => x == 0.0,
-    };
-    Ok(numbers.len() == all && numbers.iter().enumerate().all(is_plain))
+    let focal = [parameters[0], parameters[lengths - 1]];
+    let is_camera =
+        focal.iter().all(|x| x.is_finite() && *x > 0.0) && u.is_finite() && v.is_finite();
+    let is_whole = model < DIVISION && parameters.len() == all;
+    let is_plain = is_camera && is_whole && parameters[lengths + 2..].iter().all(|x| *x == 0.0);
+    let centre = [u, v];
+    Ok((
+        is_camera.then_some(Camera::Plane(Plane { focal, centre })),
+        is_plain,
+    ))
 }
 
 /// The numbers of a blob; none of what is no blob.

@@ -52,7 +52,7 @@ impl Collected {
             let what = format!("the name \"{shown}\" is empty, or has a control character");
             return Err(Problem::new(what, "give it another name"));
         }
-        let node = self.index.node(label).ok_or_else(Problem::too_many_nodes)?;
+        let node = self.index.node(label)?;
         if node as usize == self.listed.len() {
             self.listed.push(false);
         }

@@ -7,8 +7,8 @@
 
 use std::io::Read;
 
-use crate::edge_list::BYTE_ORDER_MARK;
 use crate::edge_list::columns::ListOptions;
+use crate::edge_list::{self, BYTE_ORDER_MARK};
 use crate::error::{Fault, Place, Problem};
 use crate::read_as::Parsed;
 
@@ -104,18 +104,11 @@ pub(super) fn read_with(
 
 /// Bytes as text without control characters but tabs and the ends of lines.
 fn text(bytes: &[u8]) -> Result<&str, Fault> {
-    let odd = bytes.iter().enumerate().find(|&(at, byte)| match byte {
-        b'\t' | b'\n' => false,
-        b'\r' => bytes.get(at + 1) != Some(&b'\n'),
-        _ => byte.is_ascii_control(),
-    });
-    if let Some((at, byte)) = odd {
-        let problem = Problem::control(&[], *byte);
-        return Err(Place::Line(line_of(bytes, at)).fault(problem));
+    for (line, number) in bytes.split(|&byte| byte == b'\n').zip(1..) {
+        let line = line.strip_suffix(b"\r").unwrap_or(line);
+        edge_list::text(line).map_err(|problem| Place::Line(number).fault(problem))?;
     }
-    std::str::from_utf8(bytes).map_err(|error| {
-        Place::Line(line_of(bytes, error.valid_up_to())).fault(Problem::not_utf8())
-    })
+    str::from_utf8(bytes).map_err(|_| Problem::not_utf8().into())
 }
 
 /// The number of the line in which a byte stands, from 1.

@@ -42,8 +42,6 @@ pub(super) enum Separator {
     /// Blanks and tabs, and between them perhaps a comma.
     #[default]
     Any,
-    /// Blanks and tabs.
-    Blank,
     /// This alone: fields may hold blanks, and be empty.
     Byte(u8),
 }
@@ -55,7 +53,7 @@ impl Separator {
     /// As [`split`].
     pub(super) fn split(self, line: &str, fields: &mut Vec<Field>) -> Result<(), Problem> {
         let bytes = line.as_bytes();
-        let by_blanks = !matches!(self, Self::Byte(_));
+        let by_blanks = self == Self::Any;
         let is_blank = |b: u8| b == b' ' || b == b'\t' && self != Self::Byte(b'\t');
         let cuts = |b: u8| b == b',' && self == Self::Any || self == Self::Byte(b);
         let behind = |at: usize| {

@@ -242,9 +242,6 @@ impl Collector {
     fn line_of(&mut self, line: &str, fields: &[Field], is_first: bool) -> Result<(), Problem> {
         let (found, is_own) = (fields.len(), self.layout.head == Head::Own);
         if let ([only], None) = (fields, self.layout.width) {
-            if self.has_comma(only.raw(line)) {
-                return Err(Problem::quotes(only.raw(line), BLANKS).into());
-            }
             let [node, _] = self.nodes([&only.text(line); 2])?;
             self.singles.push(node);
             return Ok(());
@@ -252,7 +249,7 @@ impl Collector {
         let expected = self.layout.width.or(is_own.then_some(2));
         if let Some(expected) = expected.filter(|&expected| expected != found) {
             let first = self.first.filter(|_| !is_first);
-            return Err(Problem::uneven(found, expected, first).into());
+            return Err(Problem::uneven(found, expected, first));
         }
         let ends = self.layout.ends.map(|end| fields[end]);
         let labels = ends.map(|field| field.text(line));
@@ -292,13 +289,13 @@ impl Collector {
                 continue;
             }
             if let Some(refusal) = unlike_a_label(label).filter(|_| is_strict) {
-                return Err(refusal.into());
+                return Err(refusal);
             }
             let blanks = label.contains([' ', '\t']) && !is_image(label);
             let commas = label.contains(',') && self.layout.separator != Separator::Byte(b';');
             let bare = matches!(self.layout.head, Head::None | Head::Comment);
-            if (blanks || commas) && bare || self.has_comma(label) {
-                return Err(Problem::quotes(label, BLANKS).into());
+            if (blanks || commas) && bare {
+                return Err(Problem::quotes(label, BLANKS));
             }
         }
         if !is_strict || !matches!(self.layout.head, Head::None | Head::Line) {
@@ -317,18 +314,13 @@ impl Collector {
             }
             if field.quoted || !is_number(text.as_bytes()) {
                 let what = format!("field {at}, `{}`, is no number", shown(&text));
-                return Err(Problem::lines(what).into());
+                return Err(Problem::lines(what));
             }
         }
         match self.pairs.len() < FIRST_LINES && !poses::are(line, &fields[2..]) {
-            true => Err(Problem::lines(poses::MISSING).into()),
+            true => Err(Problem::lines(poses::MISSING)),
             false => Ok(()),
         }
-    }
-
-    /// Whether a label has a comma where blanks separate: `0, 1` and `0,1` below `source target`.
-    fn has_comma(&self, label: &str) -> bool {
-        self.layout.separator == Separator::Blank && label.contains(',')
     }
 
     /// Whether a label has been met.
@@ -355,7 +347,7 @@ impl Collector {
             };
             let label = shown(label);
             let what = format!("`{label}` is {kind}, and the labels before it are {others}");
-            return Err(Problem::lines(what).into());
+            return Err(Problem::lines(what));
         }
         let (first, differ, padded) = &mut self.lengths;
         *first = if *first == 0 { label.len() } else { *first };
@@ -373,7 +365,7 @@ impl Collector {
         least.is_above(&given).map_err(|_| {
             let (column, given) = (column + 1, shown(&given));
             let what = format!("--min-weight: field {column}, `{given}`, is no number");
-            Problem::columns(what).into()
+            Problem::columns(what)
         })
     }
 
@@ -390,17 +382,12 @@ impl Collector {
                 let mut index = Index::default();
                 let ends = self.pairs.iter_mut().flat_map(|(a, b)| [a, b]);
                 for end in ends.chain(&mut self.singles) {
-                    *end = index
-                        .node(&end.to_string())
-                        .ok_or_else(Problem::too_many_nodes)?;
+                    *end = index.node(&end.to_string())?;
                 }
                 names.insert(index)
             }
         };
-        match (names.node(labels[0]), names.node(labels[1])) {
-            (Some(a), Some(b)) => Ok([a, b]),
-            _ => Err(Problem::too_many_nodes()),
-        }
+        Ok([names.node(labels[0])?, names.node(labels[1])?])
     }
 
     /// What speaks against the pairs being pairs of cameras.
@@ -564,7 +551,7 @@ const BLANKS: &str = "has blanks or commas";
 
 /// More than a line.
 fn too_long() -> Problem {
-    Problem::lines(format!("the line is longer than {LINE_LIMIT} bytes")).into()
+    Problem::lines(format!("the line is longer than {LINE_LIMIT} bytes"))
 }
 
 /// Why an unquoted field is no label: it has neither letters nor digits, or is punctuated like a part of

@@ -81,14 +81,17 @@ pub(crate) struct Index {
 }
 
 impl Index {
-    /// The node of a label, a new one if need be; `None` if there are too many.
-    pub(crate) fn node(&mut self, label: &str) -> Option<u32> {
+    /// The node of a label, a new one if need be.
+    ///
+    /// # Errors
+    /// Too many nodes.
+    pub(crate) fn node(&mut self, label: &str) -> Result<u32, Problem> {
         if let Some(&node) = self.nodes.get(label) {
-            return Some(node);
+            return Ok(node);
         }
-        let node = u32::try_from(self.nodes.len()).ok()?;
+        let node = u32::try_from(self.nodes.len()).map_err(|_| Problem::too_many_nodes())?;
         self.nodes.insert(label.into(), node);
-        Some(node)
+        Ok(node)
     }
 
     /// The labels in the order of their nodes.

@@ -18,9 +18,10 @@ const COLUMNS: &str = "name the two columns of the pairs by their names or their
                        that of the weights (--columns img1,img2,score)";
 /// The remedy for a table that does not say which columns are the pairs.
 const WHICH: &str = "if two of the columns are the ends of pairs, say which by their names or their numbers from 1 \
-                     (--columns img1,img2)";
+                     (--columns img1,img2); if every line joins its first field with each of the others, \
+                     --format openmvg-pairs";
 const EVEN: &str = "write as many on every line, without numbers of lines (R: row.names = FALSE, pandas: index=False), \
-                    and names with blanks in quotes";
+                    and names with blanks in quotes; lists of neighbours are read by --format openmvg-pairs";
 
 impl Problem {
     /// Lines that are none of a list.

@@ -192,7 +192,7 @@ fn separator(lines: &[&str]) -> Separator {
     let unquoted: Vec<&str> = first.split('"').step_by(2).collect();
     let is_there = |&byte: &u8| unquoted.iter().any(|part| part.contains(char::from(byte)));
     let found = even.or_else(|| candidates.into_iter().find(is_there));
-    found.map_or(Separator::Blank, Separator::Byte)
+    found.map_or(Separator::Any, Separator::Byte)
 }
 
 /// The fields of a line as text.
@@ -229,7 +229,7 @@ pub(super) fn layout(
         };
     };
     if is_own(text.as_bytes()) && reading == Reading::Strict && options.columns.is_none() {
-        layout.separator = Separator::Blank;
+        layout.separator = Separator::Any;
         layout.head = Head::Own;
         return Ok(layout);
     }
@@ -269,7 +269,7 @@ pub(super) fn layout(
         _ => {
             let head = refusal::head(&names);
             let what = format!("the head `{head}` names the columns of pairs twice");
-            return Err(Problem::columns(what).into());
+            return Err(Problem::columns(what));
         }
     }
     let word = |word: &String| {
@@ -291,11 +291,13 @@ pub(super) fn layout(
     } else if is_head(&names, cells.get(1..).unwrap_or_default()) {
         let head = refusal::head(&names);
         let what = format!("the head `{head}` names no two columns with images or nodes");
-        return Err(Problem::unnamed(what).into());
+        return Err(Problem::unnamed(what));
     } else if !WIDTHS.contains(&names.len()) {
         let what = "a list without a head has 2, 3 with a number, or 9 or 14 with a relative pose";
         let found = counted(names.len(), "field");
-        return Err(Problem::unnamed(format!("the line has {found}, and {what}")).into());
+        return Err(Problem::unnamed(format!(
+            "the line has {found}, and {what}"
+        )));
     }
     weighed(layout, options)
 }
@@ -339,6 +341,8 @@ fn weighed(mut layout: Layout, options: &ListOptions) -> Result<Layout, Problem>
     layout.weight = named.or(third);
     match layout.weight {
         Some(_) => Ok(layout),
-        None => Err(Problem::columns("--min-weight: there is no column of weights").into()),
+        None => Err(Problem::columns(
+            "--min-weight: there is no column of weights",
+        )),
     }
 }

@@ -78,9 +78,7 @@ fn of_parts_what_counts_once_or_says_nothing_is_said() {
     assert_eq!(found, [vec![0, 1], vec![0, 1, 2, 3], vec![1, 2, 3]]);
     assert_eq!(
         notes,
-        [
-            "3 parts add nothing: of fewer than two cameras, or given again",
-        ]
+        ["3 parts add nothing: of fewer than two cameras, or given again",]
     );
     assert_eq!(parts("part 3\n", &numbers()).0, [[0; 0]; 0]);
 }

@@ -9,11 +9,11 @@ use std::collections::HashMap;
 use std::io::Read;
 use std::path::Path;
 
-use crate::NamedGraph;
-use crate::cameras::{for_each_line, read_file};
+use crate::cameras::for_each_line;
 use crate::colmap::{self, Focal, FocalLengths};
 use crate::edge_list::fields::split;
 use crate::error::{Fault, Place, Problem, ReadError};
+use crate::{NamedGraph, whole};
 use viewcert::intrinsics::{Class, Sensors};
 use viewcert::wording::counted;
 
@@ -46,8 +46,13 @@ pub fn read_intrinsics(
     if colmap::is_database(path) {
         return of_database(path, input, true);
     }
-    let read = |text: &mut dyn Read| read(text, input);
-    read_file(path, read, |found| &mut found.notes)
+    let name = path.display().to_string();
+    let found = read(&whole::bytes(path)?[..], input);
+    let mut found = found.map_err(|fault| fault.in_file(&name))?;
+    for note in &mut found.notes {
+        *note = format!("{name}: {note}");
+    }
+    Ok(found)
 }
 
 /// The sensors of the images of a COLMAP database; without `priors` all but spherical ones are *focal*.

@@ -157,14 +157,10 @@ impl<'a> Variable<'a> {
             dimensions: Vec::new(),
             values: Cow::Borrowed(&[]),
         };
-        if kind == MATRIX {
-            variable.values = Cow::Borrowed(variable.describe(element)?);
-        } else {
-            let mut content = inflated(element)?;
-            let behind = content.len() - variable.describe(&content)?.len();
-            content.drain(..behind);
-            variable.values = Cow::Owned(content);
-        }
+        variable.values = match kind {
+            MATRIX => Cow::Borrowed(variable.describe(element)?),
+            _ => Cow::Owned(variable.describe(&inflated(element)?)?.to_vec()),
+        };
         Ok(variable)
     }
 

@@ -330,20 +330,8 @@ impl Model {
     /// The first image with a number that is none, by its name.
     pub fn poses(&self) -> Result<Vec<[Rational; 7]>, String> {
         let image = |image: &Image| {
-            let numbers: Option<Vec<Rational>> = match self.encoding {
-                Encoding::Binary => {
-                    let (numbers, _) = image.pose.as_chunks::<8>();
-                    numbers
-                        .iter()
-                        .map(|&bytes| exact(f64::from_le_bytes(bytes)))
-                        .collect()
-                }
-                Encoding::Text => {
-                    let text = std::str::from_utf8(&image.pose).ok();
-                    text.and_then(|text| text.split(' ').map(|word| word.parse().ok()).collect())
-                }
-            };
-            let pose = numbers.and_then(|all| all.first_chunk::<7>().cloned());
+            let double = |bytes| exact(f64::from_le_bytes(bytes));
+            let pose = fields_of(self.encoding, &image.pose, double, |word| word.parse().ok());
             pose.ok_or_else(|| image.name.to_string())
         };
         self.images.iter().map(image).collect()
@@ -395,18 +383,31 @@ impl Model {
 
 /// The first numbers of a record, if they are finite.
 fn numbers<const N: usize>(encoding: Encoding, record: &[u8]) -> Option<[f64; N]> {
-    let numbers: Vec<f64> = match encoding {
+    let double = |bytes| Some(f64::from_le_bytes(bytes));
+    let numbers = fields_of(encoding, record, double, |word| word.parse().ok());
+    numbers.filter(|all| all.iter().all(|x| x.is_finite()))
+}
+
+/// The first numbers of a record, by what each is in bytes and in text.
+fn fields_of<T, const N: usize>(
+    encoding: Encoding,
+    record: &[u8],
+    double: impl Fn([u8; 8]) -> Option<T>,
+    word: impl Fn(&str) -> Option<T>,
+) -> Option<[T; N]> {
+    let numbers: Option<Vec<T>> = match encoding {
         Encoding::Binary => {
             let (numbers, _) = record.as_chunks::<8>();
-            numbers.iter().copied().map(f64::from_le_bytes).collect()
+            numbers.iter().take(N).map(|&bytes| double(bytes)).collect()
         }
-        Encoding::Text => {
-            let words = std::str::from_utf8(record).ok()?.split(' ');
-            words.map_while(|word| word.parse().ok()).collect()
-        }
+        Encoding::Text => str::from_utf8(record)
+            .ok()?
+            .split(' ')
+            .take(N)
+            .map(word)
+            .collect(),
     };
-    let numbers = numbers.first_chunk::<N>().copied();
-    numbers.filter(|all| all.iter().all(|x| x.is_finite()))
+    numbers?.try_into().ok()
 }
 
 impl Point {

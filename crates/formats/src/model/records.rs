@@ -25,30 +25,12 @@ const KIND: (usize, usize) = (4, 1);
 /// The error of a point that is not known.
 const NO_ERROR: f64 = -1.0;
 
-/// How many parameters the models of cameras have, by their numbers in COLMAP 4.2.
+/// Models of cameras by the names that text has, in the order of their numbers in COLMAP 4.2.
+const MODELS: &str = "SIMPLE_PINHOLE PINHOLE SIMPLE_RADIAL RADIAL OPENCV OPENCV_FISHEYE FULL_OPENCV FOV \
+                      SIMPLE_RADIAL_FISHEYE RADIAL_FISHEYE THIN_PRISM_FISHEYE RAD_TAN_THIN_PRISM_FISHEYE SIMPLE_DIVISION \
+                      DIVISION SIMPLE_FISHEYE FISHEYE EUCM EQUIRECTANGULAR";
+/// How many parameters they have.
 const PARAMETERS: [usize; 18] = [3, 4, 4, 5, 8, 8, 12, 5, 4, 5, 12, 16, 4, 5, 3, 4, 6, 2];
-
-/// Models of cameras by the names that text has, in the order of their numbers.
-const MODELS: [&str; 18] = [
-    "SIMPLE_PINHOLE",
-    "PINHOLE",
-    "SIMPLE_RADIAL",
-    "RADIAL",
-    "OPENCV",
-    "OPENCV_FISHEYE",
-    "FULL_OPENCV",
-    "FOV",
-    "SIMPLE_RADIAL_FISHEYE",
-    "RADIAL_FISHEYE",
-    "THIN_PRISM_FISHEYE",
-    "RAD_TAN_THIN_PRISM_FISHEYE",
-    "SIMPLE_DIVISION",
-    "DIVISION",
-    "SIMPLE_FISHEYE",
-    "FISHEYE",
-    "EUCM",
-    "EQUIRECTANGULAR",
-];
 
 const IMAGE_HEAD: &str = "\
 # Image list with two lines of data per image:
@@ -156,37 +138,27 @@ pub(super) fn cameras(fields: &mut dyn Fields) -> Result<BTreeMap<u32, Camera>, 
     let mut cameras = BTreeMap::new();
     while fields.record()? {
         let id = fields.short("the number of a camera")?;
-        let binary = fields.encoding() == Encoding::Binary;
-        let (model, width) = match binary {
-            true => {
-                let model = fields.short("the model of a camera")? as usize;
-                let width = fields.long("the width of a camera")? as u64;
-                fields.long("the height of a camera")?;
-                (Some(model), width)
-            }
-            false => {
+        let model = match fields.encoding() {
+            Encoding::Binary => Some(fields.short("the model of a camera")? as usize),
+            Encoding::Text => {
                 let mut name = Vec::new();
                 fields.raw((0, 1), "the model of a camera", &mut name)?;
-                let name = String::from_utf8_lossy(&name);
-                let width = fields.long("the width of a camera")? as u64;
-                fields.long("the height of a camera")?;
-                (MODELS.iter().position(|&model| model == name), width)
+                MODELS.split(' ').position(|model| model.as_bytes() == name)
             }
         };
-        let Some((model, &count)) = model.and_then(|model| Some((model, PARAMETERS.get(model)?)))
-        else {
-            return Err(fields.corrupt(format!("camera {id} has a model that is not known")));
-        };
+        let width = fields.long("the width of a camera")? as u64;
+        fields.long("the height of a camera")?;
+        let known = model.and_then(|model| Some((model, *PARAMETERS.get(model)?)));
+        let unknown = || fields.corrupt(format!("camera {id} has a model that is not known"));
+        let (model, count) = known.ok_or_else(unknown)?;
         let parameters = (0..count).map(|_| fields.float("a parameter of a camera"));
         let parameters = parameters.collect::<Result<_, _>>()?;
-        cameras.insert(
-            id,
-            Camera {
-                model,
-                width,
-                parameters,
-            },
-        );
+        let camera = Camera {
+            model,
+            width,
+            parameters,
+        };
+        cameras.insert(id, camera);
     }
     Ok(cameras)
 }

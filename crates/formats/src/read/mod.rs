@@ -15,7 +15,7 @@ use crate::edge_list::columns::{Columns, ListOptions};
 use crate::edge_list::decimal::Decimal;
 use crate::error::{Fault, Kind as ProblemKind, Problem, ReadError};
 use crate::inflate::{Inflater, is_gzip};
-use crate::lines::{Encoding, LINE_LIMIT, Lines};
+use crate::lines::{Encoding, Lines};
 use crate::matching::Matching;
 use crate::read_as::{Parsed, ReadAs};
 use crate::recognise;
@@ -352,36 +352,13 @@ impl Sampled {
     }
 }
 
-/// Reads as much of an input as it takes to tell what it is.
+/// Reads as much of an input as is looked at.
 fn sampled(mut input: Input) -> Result<Sampled, Problem> {
     let mut head = Vec::new();
-    let mut whole = more(&mut input, &mut head, recognise::SAMPLE as u64)?;
-    if !whole && let Some(missing) = recognise::missing(&head) {
-        // In steps: what the first characters promise need not be there.
-        let mut left = missing.min(LINE_LIMIT);
-        while left > 0
-            && !whole
-            && recognise::in_alphabet(&head[head.len() - STEP.min(head.len())..])
-        {
-            let step = left.min(STEP as u64);
-            whole = more(&mut input, &mut head, step)?;
-            left -= step;
-        }
-    }
-    Ok(Sampled {
-        head,
-        whole,
-        rest: input,
-    })
-}
-
-/// How many bytes of a long first line are read at once.
-const STEP: usize = 1 << 16;
-
-/// Reads so many bytes more; whether they are the last ones.
-fn more(input: &mut Input, head: &mut Vec<u8>, count: u64) -> Result<bool, Problem> {
-    let got = input.by_ref().take(count).read_to_end(head)?;
-    Ok((got as u64) < count)
+    let most = recognise::SAMPLE;
+    let whole = input.by_ref().take(most as u64).read_to_end(&mut head)? < most;
+    let rest = input;
+    Ok(Sampled { head, whole, rest })
 }
 
 /// What is in a compressed file, which has to be something else.

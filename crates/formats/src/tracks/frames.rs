@@ -9,6 +9,7 @@
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::quaternion::rotation;
 use viewcert::decide::RigFrames;
 use viewcert::wording::counted;
 
@@ -80,24 +81,8 @@ impl Pose {
         if length < 0.5 {
             return Err("has a rotation of no length");
         }
-        let turned = [
-            [
-                w * w + x * x - y * y - z * z,
-                2.0 * (x * y + w * z),
-                2.0 * (x * z - w * y),
-            ],
-            [
-                2.0 * (x * y - w * z),
-                w * w - x * x + y * y - z * z,
-                2.0 * (y * z + w * x),
-            ],
-            [
-                2.0 * (x * z + w * y),
-                2.0 * (y * z - w * x),
-                w * w - x * x - y * y + z * z,
-            ],
-        ];
-        Ok(turned.map(|row| -(row[0] * t[0] + row[1] * t[1] + row[2] * t[2]) / length))
+        let turn = rotation([w, x, y, z]);
+        Ok([0, 1, 2].map(|k| -(0..3).map(|r| turn[r][k] * t[r]).sum::<f64>()))
     }
 }
 
