@@ -32,7 +32,7 @@ const FOREIGN: [&str; 7] = [
     "head.csv",
     "mat-plain.mat",
     "model.nvm",
-    "points3D.txt",
+    "point-line.txt",
     "problem.bal",
 ];
 

@@ -65,7 +65,7 @@ pub struct OpenQuote {
 /// A quoted cell that does not end on its line.
 pub fn lines(text: &str, separator: u8) -> Result<Vec<(usize, StringRecord)>, OpenQuote> {
     // With its last line ended, a quoted cell that does not end has a line end in it.
-    let text = format!("{text}\n");
+    let text = text.replace("\r\n", "\n") + "\n";
     let mut reader = ::csv::ReaderBuilder::new()
         .has_headers(false)
         .delimiter(separator)
@@ -91,21 +91,10 @@ pub fn lines(text: &str, separator: u8) -> Result<Vec<(usize, StringRecord)>, Op
             .next()
             .is_none_or(|line| line.trim().is_empty());
         if !is_blank {
-            lines.push((line, without_carriage_return(&cells)));
+            lines.push((line, cells.clone()));
         }
     }
     Ok(lines)
-}
-
-fn without_carriage_return(cells: &StringRecord) -> StringRecord {
-    let last = cells.len().saturating_sub(1);
-    let cells = cells.iter().enumerate();
-    cells
-        .map(|(k, cell)| match k {
-            k if k == last => cell.trim_end_matches('\r'),
-            _ => cell,
-        })
-        .collect()
 }
 
 #[cfg(test)]

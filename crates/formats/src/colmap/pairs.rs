@@ -47,16 +47,6 @@ pub(super) struct Pair {
     pub(super) used: bool,
 }
 
-impl Pair {
-    /// Whether a mapper takes the pair, whatever its inliers.
-    fn is_for(&self, pipeline: Pipeline) -> bool {
-        match pipeline {
-            Pipeline::Incremental => true,
-            Pipeline::Global => (2..=6).contains(&self.config) || self.posed,
-        }
-    }
-}
-
 impl Tables {
     /// Reads them. O(images + pairs) and the sorting of both.
     ///
@@ -129,7 +119,6 @@ impl Tables {
             let Some(ends) = self.ends(row.get(0)?) else {
                 continue;
             };
-            let (a, b) = ends;
             let mut pair = Pair {
                 nodes: ends,
                 inliers,
@@ -137,26 +126,28 @@ impl Tables {
                 posed: has_pose(row)?,
                 used: false,
             };
-            pair.used = self.meant[a as usize]
-                && self.meant[b as usize]
-                && inliers >= self.min_inliers
-                && pair.is_for(self.pipeline);
+            pair.used = self.takes(&pair, self.pipeline);
             self.pairs.push(pair);
         }
         Ok(())
     }
 
+    /// Whether a pair counts for a mapper.
+    fn takes(&self, pair: &Pair, pipeline: Pipeline) -> bool {
+        let (a, b) = pair.nodes;
+        let meant = self.meant[a as usize] && self.meant[b as usize];
+        let is_global = (2..=6).contains(&pair.config) || pair.posed;
+        meant
+            && pair.inliers >= self.min_inliers
+            && (pipeline == Pipeline::Incremental || is_global)
+    }
+
     /// The pairs that a mapper of COLMAP 4.2 takes, with their inliers, increasing: it leaves out those that
     /// are undefined or degenerate.
     pub(super) fn taken_by(&self, pipeline: Pipeline) -> Vec<((u32, u32), u32)> {
-        let taken = self.pairs.iter().filter(|pair| {
-            let (a, b) = pair.nodes;
-            self.meant[a as usize]
-                && self.meant[b as usize]
-                && pair.inliers >= self.min_inliers
-                && !matches!(pair.config, 0 | 1)
-                && pair.is_for(pipeline)
-        });
+        let taken = self.pairs.iter();
+        let taken =
+            taken.filter(|pair| !matches!(pair.config, 0 | 1) && self.takes(pair, pipeline));
         let mut taken: Vec<_> = taken.map(|pair| (pair.nodes, pair.inliers)).collect();
         taken.sort_unstable();
         taken

@@ -37,16 +37,12 @@ pub(super) fn read(
     });
     let beyond = beyond?;
     let mut graph = TrackGraph::new(tables.names.clone(), options)?;
-    graph.set_spread(options.max_spread);
-    if let Some(frames) = frames {
-        graph.set_frames(frames);
-    }
+    graph.spread = Some(options.max_spread);
+    graph.frames = frames;
     let order: Vec<u32> = (0..tables.names.len() as u32).collect();
     joined.tracks(&order, Some(&mut keypoints), &mut graph)?;
     let unknown = keypoints.unknown();
-    if unknown.is_some() {
-        graph.set_places_missing();
-    }
+    graph.places_missing = unknown.is_some();
     let mut graph = graph.finish().map_err(|fault| match fault.problem.kind {
         Kind::NoPoints(_) => no_tracks(pairs.edges().len()).into(),
         _ => fault,

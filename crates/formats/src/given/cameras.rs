@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::io;
 use std::path::Path;
 
-use super::places::{Given, GivenCameras, Read, all, matrix};
+use super::places::{Given, GivenCameras, all, matrix};
 use super::table::Table;
 use super::{CAMERA_LINES, mixed, no_numbers};
 use crate::cameras::{Cameras, for_each_line};
@@ -40,9 +40,8 @@ pub(super) fn of_folder(
     input: &NamedGraph,
     model: Question,
 ) -> Result<GivenCameras, ReadError> {
-    let found = of_model(&Model::read(folder)?, input);
-    let found = found.map_err(Fault::from);
-    finished(found, &folder.display().to_string(), input, model)
+    let found = of_model(&Model::read(folder)?, input, model).map_err(Fault::from);
+    finished(found, &folder.display().to_string())
 }
 
 /// The cameras that bytes hold which were read from what is called `name`, if they hold any. O(bytes).
@@ -53,7 +52,7 @@ pub(super) fn cameras_in(
     model: Question,
 ) -> Result<Option<GivenCameras>, ReadError> {
     if are_cameras(bytes) {
-        return finished(of_text(bytes, input), name, input, model).map(Some);
+        return finished(of_text(bytes, input, model), name).map(Some);
     }
     arrays(bytes).map_or(Ok(None), |fault| Err(fault.in_file(name)))
 }
@@ -75,14 +74,8 @@ fn arrays(bytes: &[u8]) -> Option<Fault> {
     Some(Problem::foreign(what, advice).into())
 }
 
-fn finished(
-    found: Result<Read, Fault>,
-    name: &str,
-    input: &NamedGraph,
-    model: Question,
-) -> Result<GivenCameras, ReadError> {
-    let found = found.and_then(|read| read.finish(model, input));
-    let mut found = found.map_err(|fault: Fault| fault.in_file(name))?;
+fn finished(found: Result<GivenCameras, Fault>, name: &str) -> Result<GivenCameras, ReadError> {
+    let mut found = found.map_err(|fault| fault.in_file(name))?;
     for note in &mut found.notes {
         *note = format!("{name}: {note}");
     }
@@ -116,7 +109,11 @@ fn are_cameras(bytes: &[u8]) -> bool {
 }
 
 /// The cameras of a text.
-fn of_text(text: impl io::Read, input: &NamedGraph) -> Result<Read, Fault> {
+fn of_text(
+    text: impl io::Read,
+    input: &NamedGraph,
+    model: Question,
+) -> Result<GivenCameras, Fault> {
     let mut given = BTreeMap::new();
     let mut fields = Vec::new();
     let mut table: Option<Table> = None;
@@ -165,7 +162,7 @@ fn of_text(text: impl io::Read, input: &NamedGraph) -> Result<Read, Fault> {
             Some(_) => Err(twice(&first.text(line))),
         }
     })?;
-    all(given, input, Vec::new()).map_err(Fault::from)
+    all(given, input, model, Vec::new()).map_err(Fault::from)
 }
 
 fn twice(camera: &str) -> Problem {
@@ -188,12 +185,12 @@ fn number(field: Field, line: &str) -> Result<Rational, Problem> {
 }
 
 /// The cameras of a model, by the names of its images.
-fn of_model(model: &Model, input: &NamedGraph) -> Result<Read, Problem> {
+fn of_model(found: &Model, input: &NamedGraph, model: Question) -> Result<GivenCameras, Problem> {
     let cameras = Cameras::new(input);
-    let poses = model.poses();
+    let poses = found.poses();
     let poses = poses.map_err(|image| Problem::corrupt(format!("the pose of image {image}")))?;
     let (mut given, mut strangers) = (BTreeMap::new(), 0);
-    for (image, pose) in model.images.iter().zip(poses) {
+    for (image, pose) in found.images.iter().zip(poses) {
         match cameras.node(&image.name) {
             None => strangers += 1,
             Some(node) => {
@@ -212,7 +209,7 @@ fn of_model(model: &Model, input: &NamedGraph) -> Result<Read, Problem> {
             counted(strangers, "image")
         )
     });
-    all(given, input, note.into_iter().collect())
+    all(given, input, model, note.into_iter().collect())
 }
 
 /// [ d R(q) | |q|^2 d t ] for a quaternion and a translation, with d and a multiple of q that make all of them
@@ -263,8 +260,7 @@ mod tests {
     }
 
     fn read(text: &str, graph: &NamedGraph) -> Result<Centres, String> {
-        let read = of_text(text.as_bytes(), graph);
-        let read = read.and_then(|read| read.finish(Question::Calibrated, graph));
+        let read = of_text(text.as_bytes(), graph, Question::Calibrated);
         read.map(|read| read.centres)
             .map_err(|fault| fault.in_file("f").to_string())
     }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::NamedGraph;
 use crate::edge_list::refusal::shown;
-use crate::error::{Fault, Problem};
+use crate::error::Problem;
 use viewcert::at_cameras::{CentreError, Centres};
 use viewcert::geometry::camera::Camera;
 use viewcert::geometry::model::Model as Question;
@@ -20,40 +20,10 @@ pub struct GivenCameras {
     pub notes: Vec<String>,
 }
 
-enum Places {
-    Cameras(Vec<Camera<Rational>>),
-    Centres(Vec<[Rational; 3]>),
-}
-
 /// What a line, or an entry of an array, gives.
 pub(super) enum Given {
     Camera(Box<Camera<Rational>>),
     Centre([Rational; 3]),
-}
-
-/// The cameras as they were read.
-pub(super) struct Read {
-    places: Places,
-    pub(super) notes: Vec<String>,
-}
-
-impl Read {
-    /// With the centres, as a model asks for them.
-    pub(super) fn finish(self, model: Question, input: &NamedGraph) -> Result<GivenCameras, Fault> {
-        let centres = match &self.places {
-            Places::Cameras(cameras) => Centres::of_cameras(model, cameras),
-            Places::Centres(centres) => Centres::of_points(model, centres),
-        };
-        let problem = |error| {
-            Problem::new(
-                centre_error(error, input),
-                "give cameras of rank 3 that the model knows",
-            )
-        };
-        let notes = self.notes;
-        let centres = centres.map_err(problem)?;
-        Ok(GivenCameras { centres, notes })
-    }
 }
 
 /// What is wrong with cameras, by the names of these, and what to do.
@@ -81,12 +51,13 @@ pub fn centre_error(error: CentreError, input: &NamedGraph) -> String {
     }
 }
 
-/// One camera for each node.
+/// One camera for each node, with its centre as a model asks for it.
 pub(super) fn all(
     given: BTreeMap<u32, Given>,
     input: &NamedGraph,
+    model: Question,
     notes: Vec<String>,
-) -> Result<Read, Problem> {
+) -> Result<GivenCameras, Problem> {
     let nodes = input.graph.nodes();
     let first = (0..nodes as u32).find(|v| !given.contains_key(v));
     if let Some(first) = first {
@@ -107,12 +78,14 @@ pub(super) fn all(
             Given::Centre(centre) => centres.push(centre),
         }
     }
-    let places = match (cameras.is_empty(), centres.is_empty()) {
-        (_, true) => Places::Cameras(cameras),
-        (true, _) => Places::Centres(centres),
+    let centres = match (cameras.is_empty(), centres.is_empty()) {
+        (_, true) => Centres::of_cameras(model, &cameras),
+        (true, _) => Centres::of_points(model, &centres),
         _ => return Err(super::mixed("centres")),
     };
-    Ok(Read { places, notes })
+    let remedy = "give cameras of rank 3 that the model knows";
+    let centres = centres.map_err(|error| Problem::new(centre_error(error, input), remedy))?;
+    Ok(GivenCameras { centres, notes })
 }
 
 /// Twelve numbers, row by row.

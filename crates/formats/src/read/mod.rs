@@ -454,42 +454,32 @@ fn ensure_used(options: &ReadOptions, kind: Option<Kind>) -> Result<(), Problem>
     };
     let (list, is_database) = (&options.list, kind == Some(Kind::Sqlite));
     let is_list = !of_tracks && matches!(kind, None | Some(Kind::Text));
-    let no_database = "this is no COLMAP database";
-    let is_unused = |given: bool, is_used: bool| given && !is_used;
-    let variable = is_unused(options.variable.is_some(), kind == Some(Kind::Matlab));
-    let pipeline = is_unused(options.pipeline.is_some(), is_database);
-    let inliers = is_unused(options.min_inliers.is_some(), is_database);
-    let weight = is_unused(list.min_weight.is_some(), has_weights);
-    let rules = [
-        (
-            "--format",
-            options.format.is_some() && of_tracks,
-            "tracks are known by their content",
-        ),
-        ("--variable", variable, "this is no MATLAB file"),
-        (
-            "--columns",
-            is_unused(list.columns.is_some(), is_list),
-            "this is no list of pairs",
-        ),
-        (
-            "--min-weight",
-            weight,
-            "no weights are read from such a file",
-        ),
-        (
-            "--skip-loops",
-            list.skip_loops && !has_loops,
-            "of such a file no pairs are left out by that",
-        ),
-        ("--pipeline", pipeline, no_database),
-        ("--min-inliers", inliers, no_database),
+    let unused = [
+        options.format.is_some() && of_tracks,
+        options.variable.is_some() && kind != Some(Kind::Matlab),
+        list.columns.is_some() && !is_list,
+        list.min_weight.is_some() && !has_weights,
+        list.skip_loops && !has_loops,
+        options.pipeline.is_some() && !is_database,
+        options.min_inliers.is_some() && !is_database,
     ];
-    match rules.into_iter().find(|(_, is_unused, _)| *is_unused) {
-        Some((option, _, why)) => Err(Problem::unused(option, why)),
+    match UNUSED.iter().zip(unused).find(|(_, is_unused)| *is_unused) {
+        Some(((option, why), _)) => Err(Problem::unused(option, why)),
         None => Ok(()),
     }
 }
+
+/// Options, and why they may say nothing.
+const UNUSED: [(&str, &str); 7] = [
+    ("--format", "tracks are known by their content"),
+    ("--variable", "this is no MATLAB file"),
+    ("--columns", "this is no list of pairs"),
+    ("--min-weight", "no weights are read from such a file"),
+    ("--skip-loops", SKIP_LOOPS),
+    ("--pipeline", "this is no COLMAP database"),
+    ("--min-inliers", "this is no COLMAP database"),
+];
+const SKIP_LOOPS: &str = "of such a file no pairs are left out by that";
 
 /// The database at a path, open to be read in several ways; nothing, if there is none or a format says
 /// that it is something else. O(images + pairs) and the sorting of both.

@@ -55,12 +55,13 @@ const KNOWN_POSES: &str = "let COLMAP find the points (`colmap point_triangulato
                            database at these cameras: `verify database.db --given FOLDER`";
 
 /// A camera-point graph that grows by tracks.
+#[derive(Default)]
 pub(crate) struct TrackGraph {
     facts: TrackFacts,
     /// Within how many pixels features of one track in one image are one, if their places are known.
-    spread: Option<u32>,
+    pub(crate) spread: Option<u32>,
     /// Whether places are missing that were asked for.
-    places_missing: bool,
+    pub(crate) places_missing: bool,
     cameras: Vec<Box<str>>,
     /// For every camera, the last track that saw it, counted from 1.
     stamp: Vec<u32>,
@@ -72,7 +73,7 @@ pub(crate) struct TrackGraph {
     /// Where the cameras of every point end.
     ends: Vec<usize>,
     /// What is known of frames.
-    frames: Option<Frames>,
+    pub(crate) frames: Option<Frames>,
 }
 
 impl TrackGraph {
@@ -92,15 +93,10 @@ impl TrackGraph {
                 min_views: options.min_views,
                 ..TrackFacts::default()
             },
-            spread: None,
-            places_missing: false,
             stamp: vec![0; cameras.len()],
             degree: vec![0; cameras.len()],
             cameras,
-            track: 0,
-            views: Vec::new(),
-            ends: Vec::new(),
-            frames: None,
+            ..Self::default()
         })
     }
 
@@ -144,23 +140,6 @@ impl TrackGraph {
         let mut cameras = views.to_vec();
         cameras.dedup();
         self.count(&cameras)
-    }
-
-    #[cfg(any(feature = "databases", test))]
-    /// Says that places of features are known, and how near they have to be.
-    pub(crate) fn set_spread(&mut self, pixels: u32) {
-        self.spread = Some(pixels);
-    }
-
-    /// Says what is known of frames.
-    pub(crate) fn set_frames(&mut self, frames: Frames) {
-        self.frames = Some(frames);
-    }
-
-    #[cfg(feature = "databases")]
-    /// Says that some of these places are missing, so that tracks were dropped unseen.
-    pub(crate) fn set_places_missing(&mut self) {
-        self.places_missing = true;
     }
 
     /// A consistent track, each camera once.

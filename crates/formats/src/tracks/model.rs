@@ -51,9 +51,7 @@ pub(super) fn folder(folder: &Path, options: TrackOptions) -> Result<NamedGraph,
         false => None,
     };
     let mut graph = TrackGraph::new(names, options)?;
-    if let Some(frames) = frames {
-        graph.set_frames(frames);
-    }
+    graph.frames = frames;
     let mut views = Vec::new();
     let (mut from, mut doubled) = (0, 0);
     for &end in &tracks.ends {

@@ -58,7 +58,7 @@ fn a_track_is_kept_or_dropped_as_a_whole() {
     join((3, 0), (3, 1));
     let names = ["a", "b", "c", "d", "e"].map(Into::into).to_vec();
     let mut graph = TrackGraph::new(names, TrackOptions::default()).unwrap();
-    graph.set_spread(10);
+    graph.spread = Some(10);
     joined
         .tracks(&[0, 1, 2, 3, 4], Some(&mut Made(places)), &mut graph)
         .unwrap();
