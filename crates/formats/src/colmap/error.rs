@@ -1,7 +1,6 @@
 //! Why a database gives no graph.
 
 use crate::error::{Kind, Problem};
-use std::fmt::Display;
 
 /// What is wrong with a database, or with reading it.
 pub(super) fn database(what: impl Into<String>, remedy: &'static str) -> Problem {
@@ -28,8 +27,9 @@ pub(super) use sqlite::*;
 
 #[cfg(feature = "databases")]
 mod sqlite {
-    use super::{Display, Problem, database};
+    use super::{Problem, database};
     use rusqlite::{Error, ErrorCode, ffi};
+    use std::fmt::Display;
     use viewcert::wording::counted;
 
     /// `1 pair is`, `2 pairs are`.
