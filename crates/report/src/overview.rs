@@ -341,7 +341,7 @@ impl Overview<'_> {
                 .to_owned()
         });
         let off = self.contradictions.as_ref();
-        let off = off.and_then(|found| found.report().doubt()).into_iter();
+        let off = off.and_then(Contradicted::doubt).into_iter();
         let refuting = off
             .chain(base_lines)
             .chain(guessed)
@@ -624,10 +624,7 @@ impl Overview<'_> {
             },
             in_no_part: self.named(&self.in_no_part()),
             without_base_line: &self.without_base_line,
-            contradictions: self
-                .contradictions
-                .as_ref()
-                .map(|found| found.report().line()),
+            contradictions: self.contradictions.as_ref().map(Contradicted::line),
             narrow: &self.narrow,
             mappers: self.mappers.as_ref().filter(|_| self.no_model().is_none()),
             no_model: self.no_model(),
