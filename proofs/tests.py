@@ -890,47 +890,7 @@ def large(program, verify, draw):
         assert done.returncode in (0, 1) and "\n" + word in proof.read_text(), (name, done.stdout, done.stderr)
         code, out, err = program.run(graph.read_text(), proof.read_text())
         assert code == 0 and f"the generic rank of J is {rank}" in out, (name, out[:400], err)
-    both(program, verify, folder)
     print("large cores: 300 nodes by flows, a torus of 576 by bodies of full rank, a cycle of 150; 200,000 nodes in a row and back")
-
-
-def both(program, verify, folder):
-    """verify check --proved: both checkers vouch for what both have proved, and one for the rest."""
-    graph, certificate, proof = (folder / name for name in ("pairs.txt", "certificate.json", "explicit"))
-    path = {**os.environ, "PATH": str(pathlib.Path(program.path).resolve().parent)}
-    two, one = "viewcert-check, viewcert-proved", "viewcert-check"
-
-    def check(*arguments):
-        return subprocess.run([verify, "check", certificate, graph, "--proved", proof, *arguments], capture_output=True, text=True, env=path)
-
-    for pairs, model, said in (
-        (CYCLE, "affine", [f"not-finite-solvable: {two}", f"rank 16: {two}", f"components 4: {two}"]),
-        (CYCLE, "calibrated", [f"solvable: {two}", f"finite-solvable: {two}", f"rank 8: {two}", f"components 1: {two}"]),
-        (CYCLE, "projective", [f"not-finite-solvable: {two}", f"rank 28: {two}", f"components 4: {two}"]),
-        (TRIANGLE, "projective", [f"solvable: {two}", f"finite-solvable: {two}", f"rank 18: {two}", f"components 1: {two}"]),
-    ):
-        graph.write_text(text_of(pairs))
-        subprocess.run([verify, graph, "--model", model, "--certificate", certificate, "--proof", proof], capture_output=True)
-        done = check("--model", model)
-        assert done.returncode == 0 and done.stdout.split("CHECKED ")[1:] == [line + "\n" for line in said], done
-    whole = proof.read_text()
-    proof.write_text(whole.replace("claim 18", "claim 19"))
-    done = check()
-    assert done.returncode == 1 and "REJECTED" in done.stdout and "CHECKED" not in done.stdout, done
-    proof.write_text(in_model(TRIANGLE_PROOF, "calibrated", "5 5"))
-    done = check()
-    assert done.returncode == 2 and "a proof of another model" in done.stderr and "CHECKED" not in done.stdout, done
-    proof.write_text("garbage")
-    done = check()
-    assert done.returncode == 2 and "viewcert expected" in done.stderr and "CHECKED" not in done.stdout, done
-    # names are numbered in the order of their bytes, for both
-    proof.write_text(whole)
-    graph.write_text("a b\na c\nb c\n")
-    done = check()
-    assert done.returncode == 0 and f"CHECKED rank 18: {two}" in done.stdout, done
-    graph.write_text("a b\na c\nb d\n")
-    done = check()
-    assert done.returncode == 1 and "CHECKED" not in done.stdout, done
 
 
 def others_agree(program, checkers, graph, out):

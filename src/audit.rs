@@ -1,7 +1,6 @@
 //! `verify audit GRAPH...`: exact and float side by side; `--claims`: other people's results; `--cameras`: results at
 //! given cameras.
 
-use super::certificates::Target;
 use super::input::{self, InputArguments};
 use crate::given::{noted, too_many};
 use anyhow::{Context, Result, anyhow, bail, ensure};
@@ -12,15 +11,15 @@ use std::time::{Duration, Instant};
 use viewcert::Model;
 use viewcert::at_cameras::{Centres, Here};
 use viewcert::decide;
-use viewcert_audit::at_cameras::{self, FloatClaim, SigmaError, ruled, sigma};
+use viewcert_audit::at_cameras;
 use viewcert_audit::claims::{self, Ruling};
-use viewcert_audit::enclosure::{Enclosure, Matrix};
-use viewcert_audit::table::{Row, TableError};
+use viewcert_audit::enclosure::{Matrix, SigmaError, enclose};
+use viewcert_audit::table::TableError;
 use viewcert_audit::{Beside, Options, TOLERANCE};
 use viewcert_formats::{NamedGraph, cameras_beside, whole};
-use viewcert_report::audit::{AtCameras, Audit, Ruled, head};
-use viewcert_report::counted;
+use viewcert_report::audit::{Audit, Found, Ruled};
 use viewcert_report::json::write_failed;
+use viewcert_report::{counted, head};
 use viewcert_session::exit::{GOOD, NOT, TooLarge, ends_run};
 use viewcert_session::{Session, complain, outputs, printable};
 
@@ -39,28 +38,12 @@ pub(super) struct AuditArguments {
     /// What is so at the cameras of this file (see `verify help given`), with the smallest singular value
     /// of the Jacobian there, enclosed by integers.
     #[arg(long, value_name = "FILE")]
-    #[arg(conflicts_with_all = ["claims", "certificate", "tolerance", "draws"])]
+    #[arg(conflicts_with_all = ["claims", "tolerance", "draws"])]
     cameras: Option<PathBuf>,
     /// Rule on floating-point results at these cameras: CSV with the columns verdict, rank,
     /// components, sigma (docs/audit.md).
     #[arg(long, value_name = "CSV", requires = "cameras")]
     float: Option<PathBuf>,
-    /// The folder of the graphs that claims name.
-    #[arg(
-        long = "graphs",
-        id = "folder",
-        value_name = "DIR",
-        requires = "claims"
-    )]
-    folder: Option<PathBuf>,
-    /// A column of the claims that is not looked at; may be repeated or listed with commas.
-    #[arg(
-        long,
-        value_name = "COLUMN",
-        value_delimiter = ',',
-        requires = "claims"
-    )]
-    ignore: Vec<String>,
     /// Smallest eigenvalue of J^T J above which floating point says finite solvable.
     #[arg(long, value_name = "T", default_value_t = TOLERANCE, conflicts_with = "claims")]
     tolerance: f64,
@@ -71,11 +54,6 @@ pub(super) struct AuditArguments {
     #[arg(long, value_name = "K", default_value_t = 1, conflicts_with = "claims")]
     #[arg(value_parser = clap::value_parser!(u64).range(1..))]
     draws: u64,
-    /// Write the exact side's certificate to this file, or for every graph to this folder
-    /// (with --claims: of every refuted row); `-`: to standard output, and the report to
-    /// standard error.
-    #[arg(long, value_name = "PATH")]
-    certificate: Option<PathBuf>,
     /// Print one JSON object a graph or claim.
     #[arg(long)]
     json: bool,
@@ -85,24 +63,6 @@ impl AuditArguments {
     fn exact(&self, session: &Session) -> decide::Options {
         let options = decide::Options::default().seed(self.seed);
         options.watch(session.watch())
-    }
-
-    /// The target of the certificates of so many things in these files.
-    fn target(&self, inputs: &[PathBuf], (count, what): (usize, &str)) -> Result<Option<Target>> {
-        let Some(path) = self.certificate.as_deref() else {
-            return Ok(None);
-        };
-        if let Some(file) = self.single() {
-            ensure!(count <= 1, Target::too_many(file, &counted(count, what)));
-        }
-        let inputs = inputs.iter().map(PathBuf::as_path);
-        outputs::ensure_apart(&[("--certificate", Some(path))], inputs)?;
-        Ok(Some(Target::new(path)))
-    }
-
-    /// The file for certificates, if there is room for that of one graph only.
-    fn single(&self) -> Option<&Path> {
-        self.certificate.as_deref().filter(|path| !path.is_dir())
     }
 }
 
@@ -121,20 +81,12 @@ pub(super) fn run(session: &Session, arguments: &AuditArguments) -> Result<u8> {
         let about = arguments.float.as_deref().unwrap_or(path);
         return input::recorded(arguments.json, about, done);
     }
-    let (graphs, count) = (&arguments.graphs, arguments.graphs.len());
-    let mut target = arguments.target(graphs, (count, "graph"))?;
-    let too_many = |what: &str| Some(Target::too_many(arguments.single()?, what));
-    let mut out = outputs::text(&[arguments.certificate.as_deref()]);
     let each = |out: &mut _, input: &NamedGraph, _| {
-        let agree = one(session, arguments, input, target.as_mut(), out);
-        Ok(if agree.with_context(|| input.name.clone())? {
-            GOOD
-        } else {
-            NOT
-        })
+        let agree = one(session, arguments, input, out).with_context(|| input.name.clone())?;
+        Ok(if agree { GOOD } else { NOT })
     };
-    let (input, graphs) = (&arguments.input, (&**graphs, arguments.json));
-    input.for_each(session, graphs, &too_many, &mut out, each)
+    let (input, graphs) = (&arguments.input, (&*arguments.graphs, arguments.json));
+    input.for_each(session, graphs, &|_| None, &mut outputs::text(&[]), each)
 }
 
 /// Audits one graph; whether both sides agree.
@@ -142,7 +94,6 @@ fn one(
     session: &Session,
     arguments: &AuditArguments,
     input: &NamedGraph,
-    target: Option<&mut Target>,
     out: &mut impl Write,
 ) -> Result<bool> {
     let options = Options {
@@ -151,56 +102,20 @@ fn one(
     };
     let start = Instant::now();
     let exact = decide::decide(&input.graph, &arguments.exact(session))?;
-    let exact_time = start.elapsed();
-    let write =
-        |target: &mut Target| target.write(session.outputs(), (input, exact_time), &exact, None);
-    let certificate = target.map(write).transpose()?;
-    let float = Beside::new(&input.graph, &exact, &options, arguments.draws);
     let found = Audit {
         input,
         exact: &exact,
-        exact_time,
+        exact_time: start.elapsed(),
         tolerance: options.tolerance,
-        float: float?,
+        float: Beside::new(&input.graph, &exact, &options, arguments.draws)?,
     };
-    if arguments.json {
-        found.write_json(out)?;
-    } else {
-        found.write_text(out)?;
-        if let Some(path) = certificate {
-            let path = path.display().to_string();
-            writeln!(out, "  certificate {}", printable(&path))?;
-        }
-    }
+    found.write(out, arguments.json)?;
     Ok(found.float.agrees)
 }
 
 /// What is wrong with a table, by its line.
 fn refused(path: &Path, error: &TableError) -> anyhow::Error {
     anyhow!("{}:{}: {error}", path.display(), error.line)
-}
-
-/// How many rows there are of each ruling: confirmed, refuted, not decidable, bad.
-#[derive(Default)]
-struct Counts([usize; 4]);
-
-impl Counts {
-    fn add(&mut self, ruling: &Ruling) {
-        self.0[match ruling {
-            Ruling::Confirmed => 0,
-            Ruling::Refuted(_) => 1,
-            Ruling::NotDecidable(_) => 2,
-        }] += 1;
-    }
-
-    fn words(&self) -> String {
-        let [confirmed, refuted, open, _] = self.0;
-        format!("{confirmed} confirmed, {refuted} refuted, {open} not decidable")
-    }
-
-    fn code(&self) -> u8 {
-        if self.0[1] > 0 { NOT } else { GOOD }
-    }
 }
 
 /// Rules on all rows of a table; a bad one is reported and does not stop the others.
@@ -210,76 +125,68 @@ fn all_claims(session: &Session, arguments: &AuditArguments, path: &Path) -> Res
         "options that say how graphs are read cannot be used with --claims: the column `options` of \
          `verify --table=csv` says it for each row; convert others by `verify convert`"
     );
-    let rows = claims::read_table(&whole::text(path)?, &arguments.ignore);
-    let rows = rows.map_err(|error| refused(path, &error))?;
-    let mut target = arguments.target(&[path.to_owned()], (rows.len(), "claim"))?;
-    let mut out = outputs::text(&[arguments.certificate.as_deref()]);
-    let (mut counts, mut worst) = (Counts::default(), GOOD);
-    for (number, row) in (1..).zip(&rows) {
+    let rows = claims::read_table(&whole::text(path)?).map_err(|error| refused(path, &error))?;
+    let (out, json) = (&mut outputs::text(&[]), arguments.json);
+    let lines = rows.iter().map(|row| (row.line, row));
+    rule_all(
+        session,
+        (path, json),
+        lines,
+        out,
+        &mut |out, number, row| {
+            let of = claims::claim(row)?;
+            let input = &of.graph()?;
+            let found = claims::ruled(&of, input, &arguments.exact(session));
+            let (ruling, exact) = found.with_context(|| input.name.clone())?;
+            let row = Some((number, &of.claim, &ruling));
+            let found = Found::Generic(&exact);
+            Ruled { row, input, found }.write(out, json)?;
+            Ok(ruling)
+        },
+    )
+}
+
+/// Rules on rows with their lines, and sums up; a bad one is reported and does not stop the others.
+fn rule_all<T, W: Write>(
+    session: &Session,
+    (path, json): (&Path, bool),
+    rows: impl Iterator<Item = (usize, T)>,
+    out: &mut W,
+    rule: &mut dyn FnMut(&mut W, usize, T) -> Result<Ruling>,
+) -> Result<u8> {
+    let (mut counts, mut worst) = ([0; 4], GOOD);
+    for (number, (line, row)) in (1..).zip(rows) {
         session.begin_work(Some(Duration::ZERO));
-        match decide_again(session, arguments, (number, row), target.as_mut()) {
+        let kind = match rule(out, number, row) {
+            Ok(Ruling::Confirmed) => 0,
+            Ok(Ruling::Refuted(_)) => 1,
+            Ok(Ruling::NotDecidable(_)) => 2,
             Err(error) if ends_run(&error) => return Err(error),
             Err(error) => {
-                let place = format!("{}:{}", path.display(), row.line);
-                complain("verify", format_args!("{place}: {error:#}"))?;
-                let why = format!("{error:#}");
-                let written = match arguments.json {
-                    true => write_failed(&mut out, &place, &why),
+                let (place, why) = (format!("{}:{line}", path.display()), format!("{error:#}"));
+                complain("verify", format_args!("{place}: {why}"))?;
+                let written = match json {
+                    true => write_failed(out, &place, &why),
                     false => writeln!(out, "row {number:4}  {:13}  {}", "bad", printable(&why)),
                 };
                 written.context("standard output")?;
-                counts.0[3] += 1;
                 worst = worst.max(session.exit_code(&error));
+                3
             }
-            Ok(ruled) => {
-                counts.add(&ruled.ruling);
-                match arguments.json {
-                    true => ruled.write_json(&mut out)?,
-                    false => ruled.write_text(&mut out)?,
-                }
-                out.flush().context("standard output")?;
-            }
-        }
-    }
-    if !arguments.json {
-        let bad = counted(counts.0[3], "bad row");
-        writeln!(out, "{}, {bad}", counts.words())?;
+        };
+        counts[kind] += 1;
         out.flush().context("standard output")?;
     }
-    Ok(worst.max(counts.code()))
-}
-
-/// Rules on a row with its number; what is refuted is certified.
-fn decide_again(
-    session: &Session,
-    arguments: &AuditArguments,
-    (number, row): (usize, &Row),
-    target: Option<&mut Target>,
-) -> Result<Ruled> {
-    let claim = claims::claim(row)?;
-    let refuse = |path: &Path| {
-        let output = ("--certificate", arguments.certificate.as_deref());
-        let apart = outputs::ensure_apart(&[output], [path]);
-        apart.err().map(|error| format!("{error:#}"))
-    };
-    let input = claim.graph(arguments.folder.as_deref(), &refuse)?;
-    let start = Instant::now();
-    let found = claims::ruled(&claim, &input, &arguments.exact(session));
-    let (ruling, exact) = found.with_context(|| input.name.clone())?;
-    let certificate = match (&ruling, target) {
-        (Ruling::Refuted(_), Some(target)) => {
-            Some(target.write(session.outputs(), (&input, start.elapsed()), &exact, None)?)
-        }
-        _ => None,
-    };
-    Ok(Ruled {
-        number,
-        line: row.line,
-        ruling,
-        input,
-        exact,
-        certificate,
-    })
+    let [confirmed, refuted, open, bad] = counts;
+    if !json {
+        let bad = counted(bad, "bad row");
+        writeln!(
+            out,
+            "{confirmed} confirmed, {refuted} refuted, {open} not decidable, {bad}"
+        )?;
+        out.flush().context("standard output")?;
+    }
+    Ok(worst.max(if refuted > 0 { NOT } else { GOOD }))
 }
 
 /// The exact answer in one model, and the cameras as they were read.
@@ -291,97 +198,85 @@ struct Exact {
 
 /// Rules on what floating point found at the cameras of a file, or says what is so where there is no table.
 fn at_given_cameras(session: &Session, arguments: &AuditArguments, path: &Path) -> Result<u8> {
-    let (name, graphs) = ("--cameras", &arguments.graphs);
+    let (name, graphs, json) = ("--cameras", &arguments.graphs, arguments.json);
     let reason = |what: &str| Some(too_many(name, path, what));
     let count = graphs.len();
     ensure!(count == 1, too_many(name, path, &format!("{count} graphs")));
     crate::given::ensure_one_standard_input(name, Some(path), graphs)?;
     let read = |table: &PathBuf| {
         let rows = at_cameras::read_table(&whole::text(table)?);
-        rows.map_err(|error| refused(table, &error))
+        let rows = rows.map_err(|error| refused(table, &error))?;
+        Ok::<_, anyhow::Error>((table.clone(), rows))
     };
-    let claims = arguments.float.as_ref().map(read).transpose()?;
-    let mut out = outputs::text(&[]);
+    let table = arguments.float.as_ref().map(read).transpose()?;
+    let rows = table.as_ref().map_or(&[][..], |(_, rows)| rows);
+    let mut models: Vec<Model> = rows.iter().map(|of| of.claim.model).collect();
+    if models.is_empty() {
+        models.push(Model::default());
+    }
     let each = |out: &mut _, input: &NamedGraph, _| {
+        let mut answers: Vec<Exact> = Vec::new();
+        for &model in &models {
+            if answers.iter().all(|answer| answer.here.model != model) {
+                answers.push(exact(session, input, path, model)?);
+            }
+        }
+        if !json {
+            head(out, &answers[0].input)?;
+        }
+        let Some((table, rows)) = &table else {
+            let Exact {
+                input,
+                centres,
+                here,
+            } = &answers[0];
+            let enclosed = |_| {
+                let (at, watch) = ((centres, here), session.shown_watch());
+                enclose(Matrix::Plain, &input.graph, at, (None, None), &watch)
+            };
+            let sigma = centres
+                .cameras()
+                .map(enclosed)
+                .transpose()
+                .map_err(not_enclosed)?;
+            session.hide();
+            let sigma = sigma.map(|found| (Matrix::Plain, found));
+            let found = Found::AtCameras(here, sigma.as_ref());
+            Ruled {
+                row: None,
+                input,
+                found,
+            }
+            .write(out, json)?;
+            return Ok(GOOD);
+        };
+        let lines = rows.iter().map(|of| (of.claim.line, of));
         rule_all(
             session,
-            arguments.json,
-            (input, path),
-            claims.as_deref(),
+            (table, json),
+            lines,
             out,
+            &mut |out, number, of| {
+                let at = answers.iter().find(|at| at.here.model == of.claim.model);
+                let Exact {
+                    input,
+                    centres,
+                    here,
+                } = at.context("every model is decided")?;
+                let at = (centres, here);
+                let found = session.watched(|watch| at_cameras::ruled(of, &input.graph, at, watch));
+                let (ruling, sigma) = found.map_err(not_enclosed)?;
+                let row = Some((number, &of.claim, &ruling));
+                let found = Found::AtCameras(here, sigma.as_ref());
+                Ruled { row, input, found }.write(out, json)?;
+                Ok(ruling)
+            },
         )
     };
-    let (input, graphs) = (&arguments.input, (&**graphs, arguments.json));
-    input.for_each(session, graphs, &reason, &mut out, each)
-}
-
-fn rule_all(
-    session: &Session,
-    json: bool,
-    (input, path): (&NamedGraph, &Path),
-    claims: Option<&[FloatClaim]>,
-    out: &mut impl Write,
-) -> Result<u8> {
-    let models = match claims {
-        Some(claims) => claims.iter().map(|claim| claim.model).collect(),
-        None => vec![Model::default()],
-    };
-    let mut answers: Vec<Exact> = Vec::new();
-    for model in models {
-        if answers.iter().all(|answer| answer.here.model != model) {
-            answers.push(exact(session, input, path, model)?);
-        }
-    }
-    if !json && let Some(first) = answers.first() {
-        head(out, &first.input)?;
-    }
-    let Some(claims) = claims else {
-        let at = &answers[0];
-        let matrix = at.centres.cameras().map(|_| Matrix::Plain);
-        let found = matrix.map(|matrix| {
-            let found = session.watched(|watch| {
-                let (graph, centres) = (&at.input.graph, (&at.centres, &at.here));
-                sigma(matrix, graph, centres, (None, None), watch)
-            });
-            Ok::<_, anyhow::Error>((matrix, found.map_err(|error| not_enclosed(error, 0))?))
-        });
-        print(out, json, at, found.transpose()?.as_ref(), None)?;
-        return Ok(GOOD);
-    };
-    let mut counts = Counts::default();
-    for (row, claim) in (1..).zip(claims) {
-        let at = answers.iter().find(|at| at.here.model == claim.model);
-        let at = at.unwrap_or(&answers[0]);
-        let found =
-            session.watched(|watch| ruled(claim, &at.input.graph, (&at.centres, &at.here), watch));
-        let (ruling, sigma) = found.map_err(|error| not_enclosed(error, claim.line))?;
-        counts.add(&ruling);
-        print(out, json, at, sigma.as_ref(), Some((row, claim, &ruling)))?;
-    }
-    if !json {
-        writeln!(out, "{}", counts.words())?;
-    }
-    Ok(counts.code())
-}
-
-fn print(
-    out: &mut impl Write,
-    json: bool,
-    Exact { input, here, .. }: &Exact,
-    sigma: Option<&(Matrix, Enclosure)>,
-    ruled: Option<(usize, &FloatClaim, &Ruling)>,
-) -> Result<()> {
-    let report = AtCameras {
-        input,
-        here,
-        sigma,
-        ruled,
-    };
-    match json {
-        true => report.write_json(out)?,
-        false => report.write_text(out)?,
-    }
-    out.flush().context("standard output")
+    let graphs = (&**graphs, json);
+    arguments
+        .input
+        .for_each(session, graphs, &reason, &mut outputs::text(&[]), each)
 }
 
 fn exact(session: &Session, input: &NamedGraph, path: &Path, model: Model) -> Result<Exact> {
@@ -402,11 +297,11 @@ fn exact(session: &Session, input: &NamedGraph, path: &Path, model: Model) -> Re
     })
 }
 
-/// Why a singular value is not enclosed, which a line of the table claims.
-fn not_enclosed(error: SigmaError, line: usize) -> anyhow::Error {
+/// Why a singular value is not enclosed.
+fn not_enclosed(error: SigmaError) -> anyhow::Error {
     match error {
         SigmaError::TooLarge { .. } => TooLarge(error.to_string()).into(),
         SigmaError::Stopped(stopped) => stopped.into(),
-        error => anyhow!("line {line} of the table: {error}"),
+        error => anyhow!(error),
     }
 }

@@ -131,112 +131,33 @@ impl<'a> Line<'a> {
         ))
     }
 
-    /// Which commands have an option that this one has not, and the line to type.
+    /// Which commands have an option that this one has not, and the line to type where it needs no other words.
     fn elsewhere<P: Parser>(&self, error: &Error) -> Option<String> {
         let unknown = unknown(error)?;
         let others = std::iter::once(self.tree).chain(self.tree.get_subcommands());
-        let having: Vec<&Command> = others
-            .filter(|one| option(one, &unknown).is_some())
-            .collect();
-        let lines = having.iter().filter_map(|command| self.of::<P>(command));
-        let (line, left_out) = lines.min_by_key(|(_, left_out)| left_out.len())?;
+        let having = others.filter(|one| option(one, &unknown).is_some());
+        let having: Vec<&Command> = having.collect();
         let names: Vec<String> = having.iter().map(|one| called(self.tree, one)).collect();
-        let left_out = match left_out.join(" ") {
-            words if words.is_empty() => words,
-            words => format!("; this leaves out {words}"),
-        };
-        Some(format!(
-            "{unknown} is an option of {}, not of {}{left_out}\n\n  {}",
-            names.join(", "),
-            called(self.tree, self.command),
-            line.shown()
-        ))
+        let line = having.iter().find_map(|command| self.of::<P>(command));
+        let line = line.map_or_else(String::new, |line| format!("\n\n  {}", line.shown()));
+        (!names.is_empty()).then(|| {
+            let (names, this) = (names.join(", "), called(self.tree, self.command));
+            format!("{unknown} is an option of {names}, not of {this}{line}")
+        })
     }
 
-    /// The same words for another command, and those that it does not take.
-    fn of<P: Parser>(&self, command: &'a Command) -> Option<(Self, Vec<String>)> {
+    /// The same words for another command, if both take graphs and nothing else.
+    fn of<P: Parser>(&self, command: &'a Command) -> Option<Self> {
+        let takes_graphs = |command: &Command| {
+            let mut names = command.get_positionals().map(Arg::get_value_names);
+            names.all(|names| names.is_some_and(|names| names[0] == "GRAPH"))
+        };
         let mut line = self.clone();
         line.command = command;
-        let mut left_out;
-        (line.words, left_out) = self.without_files(command);
         line.free_databases::<P>();
-        // Each step takes a word away, or names what is missing.
-        for _ in 0..=2 * self.words.len() + 2 {
-            let error = match line.parsed::<P>() {
-                Ok(_) => {
-                    let joined = line.joined::<P>();
-                    return Some((joined.map_or(line, |(_, joined)| joined), left_out));
-                }
-                Err(error) => error,
-            };
-            let gone = match (error.kind(), error.get(ContextKind::InvalidArg)) {
-                (ErrorKind::UnknownArgument, Some(ContextValue::String(unknown))) => line
-                    .words
-                    .iter()
-                    .position(|word| word == unknown.as_str() || name(word) == Some(unknown))?,
-                (ErrorKind::ArgumentConflict, invalid) => {
-                    let positional = |at: &usize| {
-                        name(&line.words[*at]).is_none()
-                            && (*at == 0 || !self.takes_next(&line.words[at - 1]))
-                    };
-                    let option = match invalid {
-                        Some(ContextValue::String(found)) => found.split([' ', '=']).next(),
-                        _ => None,
-                    };
-                    let option =
-                        |at: &usize| name(&line.words[*at]).is_some_and(|n| Some(n) == option);
-                    let all = 0..line.words.len();
-                    all.clone().find(positional).or(all.clone().find(option))?
-                }
-                (ErrorKind::MissingRequiredArgument, Some(ContextValue::Strings(missing))) => {
-                    let missing = missing.iter().flat_map(|what| what.split(' '));
-                    let bare =
-                        |what: &str| what.trim_end_matches("...").trim_matches(['<', '>']).into();
-                    line.words.extend(missing.map(bare));
-                    continue;
-                }
-                // A value is wrong, or stands in capitals for one that is missing.
-                _ => return Some((line, left_out)),
-            };
-            let takes_next = self.takes_next(&line.words[gone]);
-            let end = line.words.len().min(gone + 1 + usize::from(takes_next));
-            let words = line.words.drain(gone..end);
-            left_out.extend(words.map(|word| word.to_string_lossy().into_owned()));
-        }
-        None
-    }
-
-    /// The words without those that one of two commands writes to or reads in its own way, and those that are left
-    /// out.
-    fn without_files(&self, command: &Command) -> (Vec<OsString>, Vec<String>) {
-        let is_file = |of: &Command, at: usize| {
-            let all: Vec<&Arg> = of.get_positionals().collect();
-            let names = all
-                .get(at)
-                .or(all.last())
-                .and_then(|arg| arg.get_value_names());
-            names.is_some_and(|names| matches!(&*names[0], "FILE" | "DIR"))
-        };
-        let (mut at, mut after, mut kept, mut left_out) = (0, false, Vec::new(), Vec::new());
-        for word in &self.words {
-            let is_positional = name(word).is_none() && !after;
-            after = self.takes_next(word);
-            match is_positional && (is_file(self.command, at) || is_file(command, at)) {
-                true => left_out.push(word.to_string_lossy().into_owned()),
-                false => kept.push(word.clone()),
-            }
-            at += usize::from(is_positional);
-        }
-        (kept, left_out)
-    }
-
-    /// Whether the value of an option of any command is the word behind it.
-    fn takes_next(&self, word: &OsString) -> bool {
-        let mut others = std::iter::once(self.tree).chain(self.tree.get_subcommands());
-        let found = name(word).and_then(|name| others.find_map(|command| option(command, name)));
-        let is_whole = !word.to_string_lossy().contains('=');
-        is_whole
-            && found.is_some_and(|option| values(option).0 > 0 && !option.is_require_equals_set())
+        let joined = line.joined::<P>().map(|(_, joined)| joined);
+        let line = joined.or_else(|| line.parsed::<P>().is_ok().then_some(line));
+        line.filter(|line| takes_graphs(self.command) && takes_graphs(line.command))
     }
 
     fn shown(&self) -> String {

@@ -38,7 +38,7 @@ pub(super) fn run(session: &Session, plan: &Plan) -> Result<u8> {
     let mut out = outputs::text(&plan.files().map(|(_, path)| path));
     let counted = plan.question.solutions != CountSolutions::Off;
     let table = match plan.form {
-        Form::Table(format) => Some(Table::begin(&mut out, format, &plan.graphs, counted)),
+        Form::Table => Some(Table::begin(&mut out, counted)),
         Form::Text | Form::Json => None,
     };
     let mut work = Work {
@@ -74,10 +74,7 @@ pub(super) fn run(session: &Session, plan: &Plan) -> Result<u8> {
             Ok(is_determined) => Ok(if is_determined { GOOD } else { NOT }),
         }
     })?;
-    if let Some(table) = work.table {
-        table.end(&mut out).context("standard output")?;
-        out.flush().context("standard output")?;
-    }
+    out.flush().context("standard output")?;
     Ok(code)
 }
 
@@ -121,7 +118,7 @@ impl Decided {
             }
             Beside::Cameras(input, centres) => {
                 ensure!(
-                    !matches!(plan.form, Form::Table(_)),
+                    !matches!(plan.form, Form::Table),
                     "--table: a row does not say what holds at given cameras; leave out one of the two"
                 );
                 (

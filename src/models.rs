@@ -61,7 +61,7 @@ pub(super) fn run(session: &Session, arguments: &ModelsArguments) -> Result<u8> 
         };
         let verdicts = report::ORDER.into_iter().map(decided);
         let verdicts: Vec<(Verdict, Scope)> = verdicts.collect::<Result<_>>()?;
-        let changes = report::all_changes(&verdicts);
+        let changes = report::all_changes(input, &verdicts);
         if arguments.json {
             report::json(out, input, &verdicts, &changes)?;
         } else {

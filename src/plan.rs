@@ -16,7 +16,6 @@ use viewcert::geometry::model::Model;
 use viewcert_advice::Request;
 use viewcert_formats::ReadOptions;
 use viewcert_report::assumptions::Asked;
-use viewcert_report::many::Format;
 use viewcert_session::outputs;
 
 /// What is decided, and what is done with the answer.
@@ -95,8 +94,8 @@ pub(super) enum Form {
     Text,
     /// One JSON object a graph.
     Json,
-    /// A line a graph and a summary.
-    Table(Format),
+    /// Comma-separated values, a row a graph.
+    Table,
 }
 
 /// The name of the file for certificates in messages.
@@ -214,7 +213,7 @@ impl Plan {
             "{INTRINSICS}: explicit proofs do not state classes of cameras; leave out {PROOF}"
         );
         ensure!(
-            !matches!(self.form, Form::Table(_)),
+            !matches!(self.form, Form::Table),
             "{INTRINSICS}: a table has no columns for it; leave out one of the two"
         );
         Ok(())

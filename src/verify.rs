@@ -11,7 +11,6 @@ use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use viewcert::decide::{Arithmetic, CountSolutions, Prime};
 use viewcert::linalg::prime::PrimeField;
-use viewcert_report::many::Format;
 
 /// The title of what can be checked without us.
 const EVIDENCE: &str = "Evidence";
@@ -57,11 +56,15 @@ pub(super) struct VerifyArguments {
     /// Write the explicit proof that `viewcert-proved` verifies to this file.
     #[arg(long, value_name = "FILE", help_heading = EVIDENCE, hide_short_help = true)]
     proof: Option<PathBuf>,
-    /// Print a line a graph, and a summary; or csv.
-    #[arg(long, hide_possible_values = true, value_enum, value_name = "FORMAT", num_args = 0..=1, require_equals = true)]
-    #[arg(default_missing_value = "text", hide_short_help = true)]
+    /// Print comma-separated values: a row a graph.
+    #[arg(long, hide_possible_values = true, value_parser = ["csv"], value_name = "FORMAT", num_args = 0..=1)]
+    #[arg(
+        require_equals = true,
+        default_missing_value = "csv",
+        hide_short_help = true
+    )]
     #[arg(conflicts_with_all = ["json", "components", "planar", "tracks"])]
-    table: Option<TableName>,
+    table: Option<String>,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -69,22 +72,6 @@ enum MethodName {
     Bodies,
     Ranks,
     Matrix,
-}
-
-/// How a table is written.
-#[derive(Clone, Copy, ValueEnum)]
-enum TableName {
-    Text,
-    Csv,
-}
-
-impl From<TableName> for Format {
-    fn from(name: TableName) -> Self {
-        match name {
-            TableName::Text => Self::Text,
-            TableName::Csv => Self::Csv,
-        }
-    }
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -161,8 +148,8 @@ impl VerifyArguments {
         plan.asked.planar = self.planar;
         plan.products.certificate = self.certificate.clone();
         plan.products.proof = self.proof.clone();
-        if let Some(name) = self.table {
-            plan.form = Form::Table(name.into());
+        if self.table.is_some() {
+            plan.form = Form::Table;
         }
         plan.checked()
     }

@@ -6,11 +6,12 @@ use std::fs;
 
 const HOUSE: &str = "examples/house.txt";
 
-/// The line to type in an answer.
-fn line(said: &str) -> Vec<String> {
-    let line = said.lines().find_map(|line| line.strip_prefix("  verify"));
-    let line = line.unwrap_or_else(|| panic!("no line to type: {said}"));
-    line.split_whitespace().map(str::to_owned).collect()
+/// The line to type in an answer, if one is enough.
+fn line(said: &str) -> Option<Vec<String>> {
+    let line = said
+        .lines()
+        .find_map(|line| line.strip_prefix("  verify"))?;
+    Some(line.split_whitespace().map(str::to_owned).collect())
 }
 
 fn has(command: &Command, long: &str) -> bool {
@@ -26,7 +27,7 @@ fn an_option_of_another_command_is_answered_by_its_line() {
     let commands: Vec<&Command> = std::iter::once(&tree)
         .chain(tree.get_subcommands())
         .collect();
-    let mut tried = 0;
+    let (mut tried, mut lines) = (0, 0);
     for command in &commands {
         for arg in command
             .get_arguments()
@@ -61,7 +62,11 @@ fn an_option_of_another_command_is_answered_by_its_line() {
                     run.err
                 );
                 assert!(!run.err.contains("use '--"), "{}", run.err);
-                let typed = line(&run.err);
+                tried += 1;
+                let Some(typed) = line(&run.err) else {
+                    continue;
+                };
+                lines += 1;
                 assert!(
                     typed.iter().any(|word| word.starts_with(&option)),
                     "{words:?}: {typed:?}"
@@ -70,11 +75,10 @@ fn an_option_of_another_command_is_answered_by_its_line() {
                     .iter()
                     .find(|one| typed.first().is_some_and(|first| first == one.get_name()));
                 assert!(has(to.unwrap_or(&&tree), long), "{words:?}: {typed:?}");
-                tried += 1;
             }
         }
     }
-    assert!(tried > 100, "{tried}");
+    assert!(tried > 100 && lines > 20, "{tried} {lines}");
 }
 
 /// The line that is answered runs, where it needs nothing else.
@@ -84,7 +88,7 @@ fn the_line_to_type_can_be_typed() {
     let graph = folder.path().join("a graph.txt");
     fs::write(&graph, "a b\nb c\na c\n").unwrap();
     let graph = graph.to_str().unwrap();
-    let cases: [(&[&str], &[&str]); 10] = [
+    let cases: [(&[&str], &[&str]); 7] = [
         (&[graph, "--suggest"], &["advise", graph, "--suggest"]),
         (
             &[graph, "--suggest", "3"],
@@ -104,16 +108,6 @@ fn the_line_to_type_can_be_typed() {
             &["advise", graph, "--weak", "images"],
             &["advise", graph, "--weak=images"],
         ),
-        // Files of one command are no graphs and no files of another.
-        (
-            &["export", graph, "parts", "--weak"],
-            &["advise", graph, "--weak"],
-        ),
-        (
-            &["lists", graph, graph, "--suggest"],
-            &["advise", graph, "--suggest"],
-        ),
-        (&["draw", graph, "a.svg", "--table"], &[graph, "--table"]),
     ];
     for (words, expected) in cases {
         let run = verify(words);
@@ -125,22 +119,17 @@ fn the_line_to_type_can_be_typed() {
         assert!(run.err.contains(&typed), "{words:?}: {}", run.err);
         assert_eq!(verify(expected).code, 0, "{expected:?}");
     }
-    // What another command would write to is not taken from graphs, and what it does not take is left out.
-    let run = verify(&[graph, graph, "--full"]);
-    assert!(
-        run.err
-            .contains(&format!("\n  verify witness '{graph}' --full FILE\n")),
-        "{}",
-        run.err
-    );
-    let run = verify(&["advise", graph, "--suggest", "--certificate", "c.json"]);
-    assert!(run.err.contains("this leaves out --suggest"), "{}", run.err);
-    assert!(
-        run.err
-            .contains(&format!("\n  verify '{graph}' --certificate c.json\n")),
-        "{}",
-        run.err
-    );
+    // What another command would write to is not taken for a graph, and no option is left out.
+    for words in [
+        &["export", graph, "parts", "--weak"][..],
+        &["draw", graph, "a.svg", "--table"],
+        &[graph, graph, "--full"],
+        &["advise", graph, "--suggest", "--certificate", "c.json"],
+    ] {
+        let run = verify(words);
+        assert!(run.err.contains(" is an option of `verify"), "{}", run.err);
+        assert_eq!(line(&run.err), None, "{}", run.err);
+    }
 }
 
 /// A value that may be left out is no database, where the database is the graph.
@@ -168,13 +157,6 @@ fn intrinsics_swallow_no_database() {
     let run = verify(&["draw", "--intrinsics", database, picture.to_str().unwrap()]);
     assert!(
         run.code == expected.code && picture.is_file(),
-        "{}",
-        run.err
-    );
-    let run = verify(&["export", "--intrinsics", database, "parts"]);
-    assert!(
-        run.err
-            .contains(&format!("\n  verify {database} --intrinsics\n")),
         "{}",
         run.err
     );

@@ -99,7 +99,7 @@ fn enclosed_values_are_those_of_numpy() {
     assert_eq!(run.code, 0, "{}{}", run.out, run.err);
     assert!(
         run.out
-            .ends_with("3 confirmed, 0 refuted, 0 not decidable\n"),
+            .ends_with("3 confirmed, 0 refuted, 0 not decidable, 0 bad rows\n"),
         "{}",
         run.out
     );
@@ -120,7 +120,8 @@ fn on_a_line_the_value_is_zero() {
         "{}",
         run.out
     );
-    let reason = "the cameras are not determined: the rank is 4 of 5; rank 4, not 5; sigma is 0";
+    let reason =
+        "the cameras are not determined: the rank is 4 of 5; claimed rank 5, is 4; sigma is 0";
     assert_eq!(lines[1]["reason"], reason);
     assert_eq!(lines[1]["sigma"]["most"], "0");
 }
@@ -160,7 +161,7 @@ fn what_is_refused() {
     assert_eq!(run.code, 2);
     assert!(
         run.err
-            .contains("line 2 of the table: sigma: J_P takes whole cameras"),
+            .contains("float.csv:2: sigma: J_P takes whole cameras"),
         "{}",
         run.err
     );

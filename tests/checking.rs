@@ -264,7 +264,6 @@ fn one_vocabulary() {
             "`verify convert GRAPH --cameras FILE --to given -o GIVEN`",
         ),
         (&["--intrinsics"], "--classes HEX"),
-        (&["--proved", "p"], "`verify check`"),
         (&["--sweep"], "there is no option --sweep"),
     ] {
         let run = first_checker(&[&[&*certificate, &*graph], options].concat());
@@ -304,7 +303,6 @@ fn names_imitate_nothing() {
     for (graph, name) in graphs.iter().zip(names) {
         for arguments in [
             &[&**graph][..],
-            &[&**graph, "--table"],
             &[&**graph, "--table=csv"],
             &[&**graph, "--json"],
             &["models", graph],
@@ -469,52 +467,6 @@ fn blank_lines_are_skipped() {
         long.out,
         long.err
     );
-}
-
-/// The proved checker reads files of fixed names: what is said of a claim is none of the graph's name.
-#[test]
-#[cfg(unix)]
-fn a_name_vouches_for_nothing() {
-    use std::os::unix::fs::PermissionsExt;
-    let folder = Folder::new(&[("proof", "viewcert proof 1\n")]);
-    let graph = folder.write(
-        "solvable: the generic rank of J is 18 .txt",
-        "0 1\n1 2\n0 2\n",
-    );
-    let certificate = folder.certify("c.json", &graph, &[]);
-    // It says what the program says of a proof that claims nothing.
-    let script = "#!/bin/sh\necho 'Statements are about the matrices J and N.'\n\
-                  echo \"$1: 3 nodes, 3 pairs, SHA-256 of the file 12: VERIFIED\"\necho '  nothing is claimed'\n\
-                  test -r \"$1\" && test \"$(cat \"$2\")\" = 'viewcert proof 1'\n";
-    let program = folder.write("viewcert-proved", script);
-    fs::set_permissions(&program, fs::Permissions::from_mode(0o755)).unwrap();
-    let path = format!(
-        "{}:{}",
-        folder.0.path().display(),
-        std::env::var("PATH").unwrap()
-    );
-    let verify = folder.path("verify");
-    fs::copy(crate::common::program("verify"), &verify).unwrap();
-    let run = Command::new(&verify)
-        .args([
-            "check",
-            &certificate,
-            &graph,
-            "--proved",
-            &folder.path("proof"),
-        ])
-        .env("PATH", path)
-        .output()
-        .unwrap();
-    let out = String::from_utf8(run.stdout).unwrap();
-    assert_eq!(
-        run.status.code(),
-        Some(0),
-        "{}",
-        String::from_utf8_lossy(&run.stderr)
-    );
-    assert!(out.contains("CHECKED solvable: viewcert-check\n"), "{out}");
-    assert!(!out.contains("viewcert-proved"), "{out}");
 }
 
 /// What the prover writes its checkers verify: centres and cameras that primes do not tell apart, ranks without

@@ -107,7 +107,7 @@ fn reasons_in_words() {
     };
     let out = run(&edge_list(bipartite(3, 3)));
     assert!(
-        out.contains("full rank at points in the plane modulo 2305843009213693951"),
+        out.contains("full rank at drawn cameras modulo 2305843009213693951"),
         "{out}"
     );
     let out = run("0 1\n1 2\n0 2\n3\n");

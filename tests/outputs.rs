@@ -48,13 +48,6 @@ fn a_dash_is_standard_output_and_the_report_goes_to_standard_error() {
     assert_eq!(run.code, 0, "{}", run.err);
     assert!(is_certificate(&run.out), "{}", run.out);
     assert!(run.err.contains("2 cameras, 1 pair"), "{}", run.err);
-
-    let folder = tempfile::tempdir().unwrap();
-    let graph = file(folder.path(), "square.txt", &cycle(4));
-    let graph = text(&graph);
-    let run = verify(&["audit", graph, "--certificate", "-"]);
-    assert!(is_certificate(&run.out), "{}", run.out);
-    assert!(run.err.contains("result      agree"), "{}", run.err);
     // No file of that name has come to be.
     assert!(!Path::new("-").exists());
 }
@@ -163,8 +156,6 @@ fn an_input_is_never_an_output() {
     fs::write(&graph, PAIR).unwrap();
     symlink("g.txt", at("link.txt")).unwrap();
     fs::hard_link(&graph, at("hard.txt")).unwrap();
-    let table = at("claims.csv");
-    fs::write(&table, "file,rank\ng.txt,8\n").unwrap();
     let before = names(folder.path());
     let spelt = format!("{}/./g.txt", text(folder.path()));
     for name in [&graph, &spelt, &at("link.txt"), &at("hard.txt")] {
@@ -172,27 +163,7 @@ fn an_input_is_never_an_output() {
             &verify(&[&graph, "--certificate", name]),
             "this is the input",
         );
-        refused(
-            &verify(&["audit", &graph, "--certificate", name]),
-            "this is the input",
-        );
-        // Of claims the graph is known when its row is read.
-        let run = verify(&[
-            "audit",
-            "--claims",
-            &table,
-            "--graphs",
-            text(folder.path()),
-            "--certificate",
-            name,
-        ]);
-        assert_eq!(run.code, 2, "{}", run.out);
-        assert!(run.err.contains("this is the input"), "{}", run.err);
     }
-    refused(
-        &verify(&["audit", "--claims", &table, "--certificate", &table]),
-        "this is the input",
-    );
     // Standard input that comes from the file.
     let output = Command::new(env!("CARGO_BIN_EXE_verify"))
         .args(["-", "--certificate", &graph])
@@ -211,35 +182,23 @@ fn one_file_is_for_the_certificate_of_one_graph() {
     let graph = text(&graph);
     let inside = tempfile::tempdir().unwrap();
     let out = inside.path().join("c.json");
-    for command in [&[][..], &["audit"]] {
-        let certificate = ["--certificate", text(&out)];
-        refused(
-            &verify(&[command, &[graph, graph], &certificate].concat()),
-            "2 graphs",
-        );
-        // A second graph, and a line that is none: nothing is decided before.
-        for lines in ["Bw\nC~\n", "Bw\nnot graph6\n", "Bw\n\n\nC~"] {
-            let format = ["-", "--format", "graph6"];
-            let arguments = [command, &format, &certificate].concat();
-            refused(
-                &verify_with(lines.as_bytes(), &arguments),
-                "name an existing folder",
-            );
-        }
-        assert_eq!(names(inside.path()), [""; 0]);
-        let arguments = [command, &["-"], &certificate].concat();
-        let run = verify_with(b"Bw\n\n", &arguments);
-        assert_eq!(run.code, 0, "{}", run.err);
-        assert!(is_certificate(&fs::read_to_string(&out).unwrap()));
-        fs::remove_file(&out).unwrap();
-    }
-    let table = file(folder.path(), "claims.csv", "graph,rank\nC~,1\nCl,1\n");
-    let arguments = ["audit", "--claims", text(&table), "--certificate"];
+    let certificate = ["--certificate", text(&out)];
     refused(
-        &verify(&[&arguments[..], &[text(&out)]].concat()),
-        "2 claims",
+        &verify(&[&[graph, graph][..], &certificate].concat()),
+        "2 graphs",
     );
+    // A second graph, and a line that is none: nothing is decided before.
+    for lines in ["Bw\nC~\n", "Bw\nnot graph6\n", "Bw\n\n\nC~"] {
+        let arguments = [&["-", "--format", "graph6"][..], &certificate].concat();
+        refused(
+            &verify_with(lines.as_bytes(), &arguments),
+            "name an existing folder",
+        );
+    }
     assert_eq!(names(inside.path()), [""; 0]);
+    let run = verify_with(b"Bw\n\n", &[&["-"][..], &certificate].concat());
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert!(is_certificate(&fs::read_to_string(&out).unwrap()));
 }
 
 #[test]
@@ -323,7 +282,6 @@ fn a_broken_pipe_is_quiet() {
     fs::create_dir(&certificates).unwrap();
     let certificate = format!("{certificates}/c.json");
     assert_eq!(verify(&[&graph, "--certificate", &certificate]).code, 1);
-    let copy = at("copy.json");
     for arguments in [
         &[&graph[..]][..],
         &[&graph, &graph],
@@ -334,7 +292,7 @@ fn a_broken_pipe_is_quiet() {
         &["catalog", "--nodes", "5"],
         &["catalog", "--nodes", "7", "--list"],
         &["audit", &graph],
-        &["audit", &graph, "--json", "--certificate", &copy],
+        &["audit", &graph, "--json"],
         &["audit", "--claims", &table],
     ] {
         let (reader, writer) = std::io::pipe().unwrap();

@@ -175,16 +175,20 @@ fn answers_by_hand() {
 #[test]
 fn one_body_is_explained() {
     for (graph, parts, reason) in [
-        ("0 1\n1 2\n", "0 1 2\n", "one known part has all 3 cameras"),
+        (
+            "0 1\n1 2\n",
+            "0 1 2\n",
+            "known parts and pairs merge into one body of all 3",
+        ),
         (
             "0 1\n1 2\n0 3\n1 3\n",
             "2 1 0\n",
-            "known parts and pairs merge into one body with all 4",
+            "known parts and pairs merge into one body of all 4",
         ),
         (
             "0 1\n1 2\n2 3\n",
             "0 1 2\n1 2 3\n",
-            "known parts and pairs merge into one body with all 4",
+            "known parts and pairs merge into one body of all 4",
         ),
     ] {
         let run = Files::new(graph, parts).verify(&[]);

@@ -57,14 +57,9 @@ fn certificates_claims_and_their_graphs_are_read() {
     let (code, out, err) = verify(&[OsStr::new("check"), certificate.as_ref(), graph.as_ref()]);
     assert_eq!(code, Some(0), "{out}{err}");
 
-    // The name of a graph up to the dot, in a folder that has a name like that itself.
-    let graphs = place(folder.path(), "graphs");
-    std::fs::create_dir(&graphs).unwrap();
-    std::fs::write(graphs.join("triangle.g6"), TRIANGLE).unwrap();
-    std::fs::write(place(&graphs, "g6"), TRIANGLE).unwrap();
-    std::fs::write(&table, "name,rank\ntriangle,18\n").unwrap();
-    let [audit, claims, of] = ["audit", "--claims", "--graphs"].map(OsStr::new);
-    let (code, out, err) = verify(&[audit, claims, table.as_ref(), of, graphs.as_ref()]);
+    std::fs::write(&table, "graph,rank\nBw,18\n").unwrap();
+    let [audit, claims] = ["audit", "--claims"].map(OsStr::new);
+    let (code, out, err) = verify(&[audit, claims, table.as_ref()]);
     assert_eq!(code, Some(0), "{out}{err}");
     assert!(out.contains("1 confirmed"), "{out}");
 }

@@ -106,27 +106,3 @@ fn a_hub_is_written() {
     // for the whole, and for the step that tells the components apart
     assert_eq!(written.matches("\nhub 5 12\n").count(), 2);
 }
-
-/// Without the program that is proved correct nothing is said of it; with it: proofs/tests.py.
-#[test]
-fn a_checker_that_is_not_there_is_missed() {
-    let folder = tempfile::tempdir().unwrap();
-    let [graph, certificate, proof] =
-        ["graph.txt", "c.json", "proof"].map(|name| folder.path().join(name));
-    std::fs::write(&graph, "0 1\n1 2\n0 2\n").unwrap();
-    let [graph, certificate, proof] =
-        [&graph, &certificate, &proof].map(|path| path.to_str().unwrap());
-    let run = verify(&[graph, "--certificate", certificate, "--proof", proof]);
-    assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
-    let check = ["check", certificate, graph, "--proved", proof];
-    let run = Command::new(env!("CARGO_BIN_EXE_verify"))
-        .args(check)
-        .env("PATH", folder.path())
-        .output()
-        .unwrap();
-    assert_eq!(run.status.code(), Some(2));
-    assert!(text(&run.stderr).contains("viewcert-proved is neither"));
-    assert!(!text(&run.stdout).contains("CHECKED"));
-    let run = verify(&["check", certificate, "--proved", proof]);
-    assert_eq!(run.status.code(), Some(2), "{}", text(&run.stderr));
-}

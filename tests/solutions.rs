@@ -99,34 +99,6 @@ fn components_have_the_hint_that_they_have_alone() {
     }
 }
 
-/// A body is described by what it grows from: a cycle of four cameras has no K_{2,3}.
-#[test]
-fn reasons_name_what_is_there() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("graph.txt").to_str().unwrap().to_owned();
-    for (graph, model, reason) in [
-        (
-            "0 1\n1 2\n2 3\n3 0\n",
-            "calibrated",
-            "one body of 4 cameras around a cycle of four",
-        ),
-        (
-            "0 1\n1 2\n2 0\n",
-            "calibrated",
-            "one body grows from a triangle to all 3 cameras",
-        ),
-        (
-            "0 2\n0 3\n0 4\n1 2\n1 3\n1 4\n",
-            "projective",
-            "one body of 5 cameras around a K_{2,3}",
-        ),
-    ] {
-        std::fs::write(&path, graph).unwrap();
-        let text = String::from_utf8(verify(&[&path, "--model", model]).stdout).unwrap();
-        assert!(text.contains(reason), "{text}");
-    }
-}
-
 /// Writes graph6 to a file in a folder and returns its path.
 fn graph_file(folder: &std::path::Path, graph6: &str) -> String {
     let path = folder.join("graph.g6");

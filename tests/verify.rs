@@ -369,7 +369,7 @@ fn solutions_are_counted() {
         "{said}"
     );
     assert!(
-        said.contains("one body of 5 cameras around a K_{2,3}"),
+        said.contains("pairs merge into one body of all 5 cameras"),
         "{said}"
     );
     let said = verify_with(b"HBQkcP_\n", &["-", "--solutions=off"]).out;

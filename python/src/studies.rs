@@ -9,15 +9,14 @@ use crate::graph::Graph;
 use crate::work::{self, Job};
 use anyhow::anyhow;
 use pyo3::prelude::*;
-use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 use viewcert::linalg::rational::Rational;
-use viewcert_audit::at_cameras::{SigmaError, read_table, ruled, sigma};
-use viewcert_audit::enclosure::Matrix;
+use viewcert_audit::at_cameras::{read_table, ruled};
+use viewcert_audit::enclosure::{Matrix, SigmaError, enclose};
 use viewcert_audit::table::{BadRow, Row};
 use viewcert_audit::{Beside, Options as FloatOptions, claims};
-use viewcert_report::audit::{AtCameras as AtCamerasReport, Audit, Ruled};
+use viewcert_report::audit::{Audit, Found, Ruled};
 
 /// What is said for programs, as JSON, and for people.
 pub(crate) type Said = (String, String);
@@ -59,7 +58,7 @@ pub(crate) fn audit(
             tolerance,
             float,
         };
-        said(|out| found.write_json(out), |out| found.write_text(out))
+        said(|out| found.write(out, true), |out| found.write(out, false))
     };
     job.answer(py, work)
 }
@@ -70,10 +69,10 @@ pub(crate) struct Claims(Vec<Row>);
 
 #[pymethods]
 impl Claims {
-    /// Reads comma-separated values; columns in `ignored` are left out.
+    /// Reads comma-separated values.
     #[new]
-    fn new(text: &str, ignored: Vec<String>) -> PyResult<Self> {
-        let rows = claims::read_table(text, &ignored);
+    fn new(text: &str) -> PyResult<Self> {
+        let rows = claims::read_table(text);
         rows.map(Self)
             .map_err(|error| InputError::new_err(format!("line {}: {error}", error.line)))
     }
@@ -82,50 +81,38 @@ impl Claims {
         self.0.len()
     }
 
-    /// What a row calls its graph, if that may be a name which somebody has to know, and whether it is nothing else.
-    fn name(&self, row: usize) -> PyResult<Option<(String, bool)>> {
-        let claim = claims::claim(&self.0[row]).map_err(of_row)?;
-        let called = claim.called();
-        Ok(called.map(|(name, is_name)| (name.to_owned(), is_name)))
-    }
-
-    /// Rules on a row: about this graph, or the one that it names, which is in the folder if that is needed.
-    #[pyo3(signature = (row, wanted, *, graph=None, folder=None))]
+    /// Rules on a row: about this graph, or the one that it names.
+    #[pyo3(signature = (row, wanted, *, graph=None))]
     fn rule(
         &self,
         py: Python<'_>,
         row: usize,
         wanted: Wanted,
         graph: Option<&Graph>,
-        folder: Option<PathBuf>,
     ) -> PyResult<(Graph, Decided, Said)> {
-        let found = &self.0[row];
-        let claim = claims::claim(found).map_err(of_row)?;
+        let claim = claims::claim(&self.0[row]).map_err(of_row)?;
         let input = match graph {
             Some(graph) => Arc::clone(&graph.0),
-            None => {
-                let named = work::briefly(py, || claim.graph(folder.as_deref(), &|_| None))?;
-                Arc::new(named.map_err(of_row)?)
-            }
+            None => Arc::new(work::briefly(py, || claim.graph())?.map_err(of_row)?),
         };
-        let wanted = wanted.of_model(claim.model().name());
-        let (job, line) = (Job::new(py)?, found.line);
+        let wanted = wanted.of_model(claim.claim.model.name());
+        let job = Job::new(py)?;
         let options = wanted.options(viewcert::Known::default(), job.watch());
         let options = options.map_err(|error| of_any(&error))?;
         let (start, asked) = (Instant::now(), Arc::clone(&input));
-        let decide = move || Ok(claims::ruled(&claim, &asked, &options)?);
-        let (ruling, exact) = job.answer(py, decide)?;
-        let ruled = Ruled {
-            number: row + 1,
-            line,
-            ruling,
-            input: (*input).clone(),
-            exact,
-            certificate: None,
+        let decide = move || {
+            let found = claims::ruled(&claim, &asked, &options)?;
+            Ok((claim, found))
         };
-        let said = said(|out| ruled.write_json(out), |out| ruled.write_text(out));
+        let (claim, (ruling, exact)) = job.answer(py, decide)?;
+        let ruled = Ruled {
+            row: Some((row + 1, &claim.claim, &ruling)),
+            input: &input,
+            found: Found::Generic(&exact),
+        };
+        let said = said(|out| ruled.write(out, true), |out| ruled.write(out, false));
         let said = said.map_err(|error| of_any(&error))?;
-        let decided = Decided::new(Arc::clone(&input), ruled.exact, &wanted, start.elapsed());
+        let decided = Decided::new(Arc::clone(&input), exact, &wanted, start.elapsed());
         Ok((Graph(input), decided, said))
     }
 }
@@ -172,7 +159,7 @@ pub(crate) fn singular_value(
     let stop = job.watch();
     let work = move || {
         let at = (&*centres, &*here);
-        sigma(matrix, &input.graph, at, (norm.as_ref(), None), &stop)
+        enclose(matrix, &input.graph, at, (norm.as_ref(), None), &stop)
     };
     let found = job.run(py, work)?;
     let found = found.map_err(of_sigma)?;
@@ -195,8 +182,8 @@ pub(crate) fn audit_at_cameras(py: Python<'_>, at: &AtCameras, table: &str) -> P
         rows.map_err(|error| InputError::new_err(format!("line {}: {error}", error.line)))?;
     let (input, centres, here) = at.found();
     let model = centres.model();
-    if let Some(other) = rows.iter().find(|row| row.model != model) {
-        let (line, of_row) = (other.line, other.model);
+    if let Some(other) = rows.iter().find(|row| row.claim.model != model) {
+        let (line, of_row) = (other.claim.line, other.claim.model);
         return Err(InputError::new_err(format!(
             "line {line}: the row is about the {of_row} model, and the verdict is of the {model} model; \
              audit each at the cameras of its own verdict"
@@ -208,15 +195,14 @@ pub(crate) fn audit_at_cameras(py: Python<'_>, at: &AtCameras, table: &str) -> P
         let each = (1..).zip(&rows).map(|(number, claim)| {
             let at = (&*centres, &*here);
             let (ruling, sigma) = ruled(claim, &input.graph, at, &stop)?;
-            let report = AtCamerasReport {
+            let ruled = Ruled {
+                row: Some((number, &claim.claim, &ruling)),
                 input: &input,
-                here: &here,
-                sigma: sigma.as_ref(),
-                ruled: Some((number, claim, &ruling)),
+                found: Found::AtCameras(&here, sigma.as_ref()),
             };
             Ok(said(
-                |out| report.write_json(out),
-                |out| report.write_text(out),
+                |out| ruled.write(out, true),
+                |out| ruled.write(out, false),
             ))
         });
         each.collect::<Result<Vec<_>, SigmaError>>()

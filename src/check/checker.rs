@@ -35,7 +35,7 @@ impl Named<'_> {
         &self,
         certificate: &AnyCertificate,
         expected: &mut Expected,
-    ) -> Result<Option<(Graph, NamedGraph)>> {
+    ) -> Result<Option<Graph>> {
         let (input, graph) = match self.graph {
             Some(path) => {
                 let input = named_at(certificate.graph_sha256(), path, self.read)?;
@@ -60,7 +60,7 @@ impl Named<'_> {
             let (_, sensors) = intrinsics::read(self.classes, Cow::Borrowed(&input))?;
             expected.classes = sensors.map(|sensors| hex(&sensors.sha256()));
         }
-        Ok(Some((graph, input)))
+        Ok(Some(graph))
     }
 
     /// The graph with what is known beside its pairs, by its file and by rigs.

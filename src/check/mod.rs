@@ -2,7 +2,6 @@
 
 mod bound;
 mod checker;
-mod proved;
 
 use super::given::GivenArguments;
 use super::input::InputArguments;
@@ -16,9 +15,9 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use viewcert_ask::archive::{News, Terms, check_archive, not_as_expected, reason};
 use viewcert_check::program::{self, MAX_BYTES, is_certificate, no_certificate};
-use viewcert_check::{AnyCertificate, AnyVerified, Expected, Failure, Limits, Model};
+use viewcert_check::{AnyCertificate, Expected, Failure, Limits, Model};
 use viewcert_formats::folder::{Listing, is_list, name};
-use viewcert_formats::{NamedGraph, whole};
+use viewcert_formats::whole;
 use viewcert_report::counted;
 use viewcert_session::exit::{GOOD, NOT, TOO_LARGE};
 use viewcert_session::printable;
@@ -32,14 +31,6 @@ pub(super) struct CheckArguments {
     /// The graph it is about, if the certificate embeds none; the COLMAP database of one of contradictions.
     #[arg(value_name = "GRAPH")]
     graph: Option<PathBuf>,
-    /// Ask `viewcert-proved` as well, with this explicit proof.
-    #[arg(
-        long,
-        value_name = "PROOF",
-        requires = "graph",
-        conflicts_with = "tracks"
-    )]
-    proved: Option<PathBuf>,
     #[command(flatten)]
     input: InputArguments,
     /// The graph is that of cameras and points, as for `verify GRAPH --tracks`.
@@ -198,7 +189,6 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<u8> {
     };
     let from = arguments.intrinsics.clone().map(IntrinsicsFrom::from);
     let mut terms = arguments.terms();
-    let mut of_graph = None;
     let checked = match (AnyCertificate::parse(&text), &arguments.graph) {
         (Ok(AnyCertificate::Contradictions(certificate)), Some(path)) => {
             bound::check(&certificate, path, &terms.limits)?
@@ -211,9 +201,8 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<u8> {
                 classes: from.as_ref(),
                 read: &options()?,
             };
-            of_graph = named.resolve(&certificate, &mut terms.expected)?;
-            let graph = of_graph.as_ref().map(|(graph, _)| graph);
-            certificate.check_within(graph, &terms.limits)
+            let graph = named.resolve(&certificate, &mut terms.expected)?;
+            certificate.check_within(graph.as_ref(), &terms.limits)
         }
         (Err(failure), _) => Err(failure),
     };
@@ -234,12 +223,8 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<u8> {
     for line in verified.to_string().lines() {
         writeln!(out, "VERIFIED {}", printable(line))?;
     }
-    let code = match (&arguments.proved, &of_graph) {
-        (Some(proof), Some((_, input))) => say_vouched(&mut out, &verified, input, proof)?,
-        _ => GOOD,
-    };
     out.flush().context("standard output")?;
-    Ok(code)
+    Ok(GOOD)
 }
 
 /// Says why a certificate is not verified, and returns the exit code.
@@ -256,27 +241,6 @@ fn not_verified(failure: &Failure) -> Result<u8> {
             Ok(TOO_LARGE)
         }
     }
-}
-
-/// Which checkers vouch for the claims, and the exit code.
-fn say_vouched(
-    out: &mut impl Write,
-    verified: &AnyVerified,
-    graph: &NamedGraph,
-    proof: &Path,
-) -> Result<u8> {
-    Ok(match proved::vouch(verified, graph, proof)? {
-        Ok(claims) => {
-            for claim in claims.lines() {
-                writeln!(out, "CHECKED {claim}")?;
-            }
-            GOOD
-        }
-        Err(why) => {
-            writeln!(out, "REJECTED: {}", printable(&why))?;
-            NOT
-        }
-    })
 }
 
 /// What is no certificate is not rejected, which would say something about a claim.

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::time::Instant;
 use viewcert_advice::contradictions::{certificate, contradictions};
 use viewcert_formats::{ReadOptions, read_motions};
-use viewcert_report::contradictions::Contradicted;
+use viewcert_report::contradictions::ContradictionsReport;
 use viewcert_session::Session;
 
 /// The angle of an alarm, in degrees.
@@ -29,25 +29,27 @@ impl Asked<'_> {
     pub fn of<T>(
         &self,
         session: &Session,
-        say: impl FnOnce(&Contradicted) -> Result<T>,
+        say: impl FnOnce(&ContradictionsReport<'_>) -> Result<T>,
     ) -> Result<T> {
         let start = Instant::now();
         session.reading(self.file);
-        let is_hashed = self.certificate.is_some();
-        let motions = read_motions(self.file, &ReadOptions::default(), is_hashed);
+        let motions = read_motions(
+            self.file,
+            &ReadOptions::default(),
+            self.certificate.is_some(),
+        );
         session.hide();
         let motions = motions?;
-        let name = motions.name.clone();
-        let found = session.watched(|watch| contradictions(motions, self.angle, watch));
-        let (motions, found) = found.context(name)?;
+        let found = session.watched(|watch| contradictions(&motions, self.angle, watch));
+        let (motions, found) = found.with_context(|| motions.name.clone())?;
         if let Some(path) = self.certificate {
             let text = serde_json::to_vec(&certificate(&motions, &found))?;
             session.outputs().write(path, |out| out.write_all(&text))?;
         }
-        say(&Contradicted {
+        say(&ContradictionsReport {
             path: self.file.display().to_string(),
-            motions,
-            found,
+            motions: &motions,
+            found: &found,
             time: start.elapsed(),
         })
     }

@@ -3,132 +3,99 @@
 //! In: a table, one result a row. Out: for each row what it claims ([`FloatClaim`]), and, with the exact answer at the
 //! cameras and the enclosed singular value, whether that is so.
 
-use super::claims::{Claimed, Ruling, model, verdict};
-use super::table::{BadRow, Columns, Row, TableError};
-use crate::enclosure::{Enclosure, Matrix, enclose};
+use super::claims::{Claim, Claimed, Ruling};
+use super::table::{self, BadRow, Row, TableError};
+use crate::enclosure::{Enclosure, Matrix, SigmaError, enclose};
 use std::cmp::Ordering;
-use viewcert::Model;
 use viewcert::at_cameras::{Centres, Here};
 use viewcert::graph::Graph;
 use viewcert::linalg::Ring;
 use viewcert::linalg::integer::Integer;
 use viewcert::linalg::rational::{Rational, Rationals};
-use viewcert::watch::{Stopped, Watch};
-use viewcert::wording::counted;
+use viewcert::watch::Watch;
+
+/// The columns that claim something.
+const KNOWN: &str = "name model verdict rank components sigma sigma_error matrix norm";
 
 /// What a row of a table claims.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub struct FloatClaim {
-    /// Its line in the table, from 1.
-    pub line: usize,
-    /// What its author calls it.
-    pub name: Option<String>,
-    /// In which model; projective if no column says so.
-    pub model: Model,
-    /// Of these cameras.
-    pub verdict: Option<Claimed>,
-    /// The rank of the Jacobian.
-    pub rank: Option<usize>,
-    /// The number of parts that are determined.
-    pub components: Option<usize>,
-    /// Two bounds of the smallest singular value that is not of a trivial motion.
-    pub sigma: Option<[Rational; 2]>,
-    /// Of which matrix; nothing in the affine model.
-    pub matrix: Option<Matrix>,
-    /// The Frobenius norm to which cameras and fundamental matrices are scaled.
-    pub norm: Option<Rational>,
+    /// What is claimed of these cameras.
+    pub claim: Claim,
+    sigma: Option<Sigma>,
 }
+
+/// A matrix, two bounds of its smallest singular value that is not of a trivial motion, and the Frobenius norm to which
+/// cameras and fundamental matrices are scaled.
+type Sigma = (Matrix, [Rational; 2], Option<Rational>);
 
 /// Reads a table; see [`FloatClaim`] for what its columns say.
 ///
 /// # Errors
 /// The table is refused whole.
 pub fn read_table(text: &str) -> Result<Vec<FloatClaim>, TableError> {
-    let known = "name model verdict rank components sigma sigma_error matrix norm";
-    let columns = Columns::new(known, "seconds seconds_", &[]);
-    let rows = columns.read(text)?;
     let read = |row: &Row| {
-        claim(row).map_err(|BadRow(problem)| TableError {
-            line: row.line,
-            problem,
-        })
+        let line = row.line;
+        claim(row).map_err(|BadRow(problem)| TableError { line, problem })
     };
+    let rows = table::read(text, KNOWN, "seconds seconds_")?;
     rows.iter().map(read).collect()
 }
 
 fn claim(row: &Row) -> Result<FloatClaim, BadRow> {
-    let bad = |why: &str| Err(BadRow(why.to_owned()));
-    let model = model(row)?;
+    let claim = Claim::new(row)?;
+    claim.ensure_some(("sigma", row.cell("sigma").is_some()))?;
+    let sigma = sigma(row, &claim)?;
+    Ok(FloatClaim { claim, sigma })
+}
+
+/// What a row claims of a singular value.
+fn sigma(row: &Row, claim: &Claim) -> Result<Option<Sigma>, BadRow> {
+    let bad = |why: &str| BadRow(why.to_owned());
     let size = |column| {
-        let found = row.parsed(column, "a decimal or a fraction that is not negative")?;
+        let what = "a decimal or a fraction that is not negative";
+        let found: Option<Rational> = row.parsed(column, what)?;
         let is_negative = |x: &Rational| x.numerator().sign() == Ordering::Less;
         match found.as_ref().is_some_and(is_negative) {
-            true => Err(BadRow(format!(
-                "{column}: take a decimal or a fraction that is not negative"
-            ))),
+            true => Err(bad(&format!("{column}: take {what}"))),
             false => Ok(found),
         }
     };
-    let verdict = verdict(row)?;
-    let matrix = match row.cell("matrix") {
-        None => Matrix::ALL
-            .into_iter()
-            .find(|matrix| matrix.model() == model),
-        Some(text) => match Matrix::ALL.into_iter().find(|matrix| matrix.name() == text) {
-            None => {
-                return bad(&format!(
-                    "matrix: {text:?} is none of J_P, J, bearing and R_B"
-                ));
-            }
-            Some(matrix) if matrix.model() != model => {
-                return bad(&format!("matrix: {text} is no matrix of the {model} model"));
-            }
-            found => found,
-        },
-    };
     let (value, error, norm) = (size("sigma")?, size("sigma_error")?, size("norm")?);
-    if value.is_none() && (error.is_some() || norm.is_some() || row.cell("matrix").is_some()) {
-        return bad("sigma_error, matrix and norm say more of sigma, which is missing");
-    }
-    if value.is_some() && matrix.is_none() {
-        return bad(
-            "sigma: no matrix of the affine model is enclosed; claim verdict, rank or components alone",
-        );
-    }
+    let (named, model) = (row.cell("matrix"), claim.model);
+    let Some(value) = value else {
+        return match error.is_some() || norm.is_some() || named.is_some() {
+            true => Err(bad(
+                "sigma_error, matrix and norm say more of sigma, which is missing",
+            )),
+            false => Ok(None),
+        };
+    };
+    let of_model = |matrix: &Matrix| matrix.model() == model;
+    let all: Vec<Matrix> = Matrix::ALL.into_iter().filter(of_model).collect();
+    let is_named = |matrix: &&Matrix| named.is_none_or(|name| name == matrix.name());
+    let matrix = *all.iter().find(is_named).ok_or_else(|| {
+        let names: Vec<&str> = all.iter().map(|matrix| matrix.name()).collect();
+        let names = names.join(" or ");
+        match named {
+            Some(name) if !all.is_empty() => {
+                bad(&format!("matrix: {name:?} is no matrix of the {model} model; take {names}"))
+            }
+            _ => bad("sigma: no matrix of the affine model is enclosed; claim verdict, rank or components alone"),
+        }
+    })?;
     if norm.as_ref().is_some_and(|norm| norm.numerator().is_zero()) {
-        return bad("norm: take a decimal or a fraction above 0");
+        return Err(bad("norm: take a decimal or a fraction above 0"));
     }
     if norm.is_some() && model.in_space() {
-        return bad(
-            "norm: the matrix is made of directions, which have norm 1; leave the norm out",
-        );
+        let why = "norm: the matrix is made of directions, which have norm 1; leave the norm out";
+        return Err(bad(why));
     }
-    let unit = row.cell("sigma").map(last_place);
-    let sigma = match (value, error, unit) {
-        (Some(value), Some(error), _) | (Some(value), None, Some(Some(error))) => {
-            Some([Rationals.sub(&value, &error), Rationals.add(&value, &error)])
-        }
-        (Some(_), ..) => return bad("sigma: take a decimal; with a fraction goes a sigma_error"),
-        (None, ..) => None,
-    };
-    let found = FloatClaim {
-        line: row.line,
-        name: row.cell("name").map(str::to_owned),
-        model,
-        verdict,
-        rank: row.count("rank")?,
-        components: row.count("components")?,
-        sigma,
-        matrix,
-        norm,
-    };
-    let counts = found.rank.or(found.components);
-    if found.verdict.is_none() && counts.is_none() && found.sigma.is_none() {
-        return bad(
-            "nothing is claimed: one of the columns verdict, rank, components, sigma is needed",
-        );
-    }
-    Ok(found)
+    let unit = || row.cell("sigma").and_then(last_place);
+    let none = "sigma: take a decimal; with a fraction goes a sigma_error";
+    let error = error.or_else(unit).ok_or_else(|| bad(none))?;
+    let bounds = [Rationals.sub(&value, &error), Rationals.add(&value, &error)];
+    Ok(Some((matrix, bounds, norm)))
 }
 
 /// One unit of the last digit that is written; nothing for what is no decimal.
@@ -144,50 +111,6 @@ fn last_place(text: &str) -> Option<Rational> {
     is_decimal.then(|| Rational::scaled(Integer::one(), 10, exponent - behind.len() as i64))
 }
 
-/// Why a singular value is not enclosed.
-#[derive(Clone, Debug, thiserror::Error)]
-pub enum SigmaError {
-    /// More cameras than that.
-    #[error("sigma: {}, and it is enclosed for up to {most}", counted(*.cameras, "camera"))]
-    TooLarge {
-        /// Cameras of the graph.
-        cameras: usize,
-        /// Cameras at most.
-        most: usize,
-    },
-    /// The matrix takes whole cameras.
-    #[error(
-        "sigma: {0} takes whole cameras, and the file gives centres alone; give `camera` or `pose`"
-    )]
-    CentresAlone(&'static str),
-    /// Work was stopped.
-    #[error(transparent)]
-    Stopped(#[from] Stopped),
-}
-
-/// The singular value of a matrix at cameras of which the answer is known, near enough for claimed bounds; exactly zero
-/// where the rank is not full. See [`enclose`].
-///
-/// # Errors
-/// See [`SigmaError`].
-pub fn sigma(
-    matrix: Matrix,
-    graph: &Graph,
-    (centres, here): (&Centres, &Here),
-    (norm, claimed): (Option<&Rational>, Option<&[Rational; 2]>),
-    watch: &Watch,
-) -> Result<Enclosure, SigmaError> {
-    if !here.is_determined() {
-        return Ok(Enclosure::zero());
-    }
-    if let Some(most) = matrix.too_large(graph) {
-        let cameras = graph.nodes();
-        return Err(SigmaError::TooLarge { cameras, most });
-    }
-    let found = enclose(matrix, graph, centres, norm, claimed, watch)?;
-    found.ok_or(SigmaError::CentresAlone(matrix.name()))
-}
-
 /// A claim's ruling, and the singular value that it is about, if it claims one, with its matrix.
 pub type Found = (Ruling, Option<(Matrix, Enclosure)>);
 
@@ -196,29 +119,28 @@ pub type Found = (Ruling, Option<(Matrix, Enclosure)>);
 /// # Errors
 /// See [`SigmaError`].
 pub fn ruled(
-    claim: &FloatClaim,
+    of: &FloatClaim,
     graph: &Graph,
-    (centres, here): (&Centres, &Here),
+    at: (&Centres, &Here),
     watch: &Watch,
 ) -> Result<Found, SigmaError> {
-    let asked = claim.sigma.as_ref().and(claim.matrix).map(|matrix| {
-        let bounds = (claim.norm.as_ref(), claim.sigma.as_ref());
-        let found = sigma(matrix, graph, (centres, here), bounds, watch)?;
-        Ok::<_, SigmaError>((matrix, found))
+    let asked = of.sigma.as_ref().map(|(matrix, bounds, norm)| {
+        let found = enclose(*matrix, graph, at, (norm.as_ref(), Some(bounds)), watch)?;
+        Ok::<_, SigmaError>((*matrix, found))
     });
     let asked = asked.transpose()?;
     Ok((
-        rule(claim, here, asked.as_ref().map(|(_, found)| found)),
+        rule(of, at.1, asked.as_ref().map(|(_, found)| found)),
         asked,
     ))
 }
 
 /// Rules on a claim, by the exact answer in its model at the cameras and, where one is claimed, the enclosed singular value.
-fn rule(claim: &FloatClaim, here: &Here, sigma: Option<&Enclosure>) -> Ruling {
+fn rule(of: &FloatClaim, here: &Here, sigma: Option<&Enclosure>) -> Ruling {
     let (mut wrong, mut open) = (Vec::new(), None);
     // Where the equations are linear, a full rank leaves no other cameras at all.
     let is_only = here.model.is_linear() || here.is_planar;
-    match (claim.verdict, here.is_determined()) {
+    match (of.claim.verdict, here.is_determined()) {
         (Some(Claimed::Solvable | Claimed::FiniteSolvable), false) => wrong.push(format!(
             "the cameras are not determined: the rank is {} of {}",
             here.rank.value, here.required
@@ -234,15 +156,11 @@ fn rule(claim: &FloatClaim, here: &Here, sigma: Option<&Enclosure>) -> Ruling {
         }
         _ => {}
     }
-    for (what, claimed, is) in [
-        ("rank", claim.rank, here.rank.value),
-        ("components", claim.components, here.components.value.len()),
-    ] {
-        if let Some(claimed) = claimed.filter(|&claimed| claimed != is) {
-            wrong.push(format!("{what} {is}, not {claimed}"));
-        }
-    }
-    if let (Some(bounds), Some(found)) = (&claim.sigma, sigma) {
+    wrong.extend(
+        of.claim
+            .wrong(here.rank.value, here.required, here.components.value.len()),
+    );
+    if let (Some((_, bounds, _)), Some(found)) = (&of.sigma, sigma) {
         let between = match found.decimals() {
             [_, most] if most == "0" => most,
             [least, most] => format!("between {least} and {most}"),
@@ -269,17 +187,17 @@ mod tests {
         let text =
             "Name,rank,verdict,sigma,seconds_svd\nmine,29,Not determined,1.250e-3,7\n\n,,,0.5,\n";
         let claims = read_table(text).unwrap();
-        assert_eq!((claims[0].line, claims[1].line), (2, 4));
-        assert_eq!(claims[0].name.as_deref(), Some("mine"));
-        assert_eq!(claims[0].rank, Some(29));
-        assert_eq!(claims[0].verdict, Some(Claimed::NotFiniteSolvable));
-        assert_eq!(claims[0].matrix, Some(Matrix::Plain));
-        let bounds = |k: usize| claims[k].sigma.clone().unwrap().map(|x| x.to_string());
+        assert_eq!((claims[0].claim.line, claims[1].claim.line), (2, 4));
+        assert_eq!(claims[0].claim.name.as_deref(), Some("mine"));
+        assert_eq!(claims[0].claim.rank, Some(29));
+        assert_eq!(claims[0].claim.verdict, Some(Claimed::NotFiniteSolvable));
+        assert_eq!(claims[0].sigma.as_ref().unwrap().0, Matrix::Plain);
+        let bounds = |k: usize| claims[k].sigma.clone().unwrap().1.map(|x| x.to_string());
         assert_eq!(bounds(0), ["1249/1000000", "1251/1000000"]);
         assert_eq!(bounds(1), ["2/5", "3/5"]);
         let text = "model;sigma;sigma_error;matrix\ncalibrated;1/3;0.01;R_B\n";
         let claim = &read_table(text).unwrap()[0];
-        assert_eq!(claim.matrix, Some(Matrix::BearingByLength));
+        assert_eq!(claim.sigma.as_ref().unwrap().0, Matrix::BearingByLength);
     }
 
     #[test]
@@ -294,7 +212,7 @@ mod tests {
             (
                 "model,sigma,matrix\ncalibrated,1.0,J\n",
                 2,
-                "J is no matrix of the calibrated",
+                "\"J\" is no matrix of the calibrated model; take bearing or R_B",
             ),
             (
                 "model,sigma,norm\ncalibrated,1.0,2\n",
@@ -309,7 +227,7 @@ mod tests {
             ("sigma\n1/3\n", 2, "sigma_error"),
             ("verdict\nmaybe\n", 2, "verdict: \"maybe\""),
             ("model,rank\northographic,1\n", 2, "\"orthographic\""),
-            ("sigma,matrix\n1.0,K\n", 2, "matrix: \"K\""),
+            ("sigma,matrix\n1.0,K\n", 2, "matrix: \"K\" is no"),
             ("sigma,norm\n1.0,0\n", 2, "norm: take"),
         ] {
             let error = read_table(text).unwrap_err();

@@ -3,10 +3,10 @@
 //! In: a row of a [`table`](super::table), which names a graph and claims a verdict, a number of components, a rank, or
 //! several of these. Out: whether that is so. docs/audit.md has the columns.
 
-use super::table::{BadRow, Columns, Row, TableError};
+use super::table::{BadRow, Row, TableError, read};
 use std::collections::BTreeMap;
 use std::io::Cursor;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use viewcert::Model;
 use viewcert::certificate::hex;
 use viewcert::decide::{CountSolutions, Options, Question, Value, Verdict, VerdictError, decide};
@@ -24,12 +24,12 @@ const SILENT: &str = "seconds seconds_ density_ strength degrees girth automorph
 /// Options that say how a graph is decided, and not which question.
 const DECIDED: &str = "method rational solutions one-frame";
 
-/// Reads a table. Columns named in `ignored` are left out.
+/// Reads a table about graphs.
 ///
 /// # Errors
-/// See [`TableError`].
-pub fn read_table(text: &str, ignored: &[String]) -> Result<Vec<Row>, TableError> {
-    Columns::new(KNOWN, SILENT, ignored).read(text)
+/// The table is refused whole.
+pub fn read_table(text: &str) -> Result<Vec<Row>, TableError> {
+    read(text, KNOWN, SILENT)
 }
 
 /// A claimed verdict.
@@ -56,36 +56,92 @@ const WORDS: [(&str, Option<Claimed>); 7] = [
     ("undecided", None),
 ];
 
-/// The model of a row.
-pub(crate) fn model(row: &Row) -> Result<Model, BadRow> {
-    let model = row.parsed("model", "one of projective, calibrated and affine")?;
-    Ok(model.unwrap_or_default())
-}
-
-/// What a row claims of the verdict, in letters of either case, with blanks or underscores for the hyphens.
-pub(crate) fn verdict(row: &Row) -> Result<Option<Claimed>, BadRow> {
-    let Some(text) = row.cell("verdict") else {
-        return Ok(None);
-    };
-    let word = text.to_lowercase().replace([' ', '_'], "-");
-    let found = WORDS.iter().find(|(known, _)| *known == word);
-    let words = WORDS.map(|(word, _)| word).join(", ");
-    let found = found.ok_or_else(|| BadRow(format!("verdict: {text:?} is not one of {words}")));
-    Ok(found?.1)
-}
-
-/// What a row claims.
-#[derive(Clone, Debug, Default)]
+/// What a row claims, whatever it is about.
+#[derive(Clone, Debug)]
 pub struct Claim {
+    /// Its line in the table, from 1.
+    pub line: usize,
+    /// What its author calls it.
+    pub name: Option<String>,
+    /// In which model; projective if no column says so.
+    pub model: Model,
+    pub(crate) verdict: Option<Claimed>,
+    pub(crate) rank: Option<usize>,
+    required: Option<usize>,
+    /// Of `components` and all columns that begin so.
+    components: Vec<usize>,
+}
+
+impl Claim {
+    pub(crate) fn new(row: &Row) -> Result<Self, BadRow> {
+        let model = row.parsed("model", "one of projective, calibrated and affine")?;
+        let mut columns = row.cells.keys();
+        let components = columns
+            .by_ref()
+            .filter(|column| column.starts_with("components"));
+        let components = components.filter_map(|column| row.count(column).transpose());
+        // In letters of either case, with blanks or underscores for the hyphens.
+        let verdict = row.cell("verdict").map(|text| {
+            let word = text.to_lowercase().replace([' ', '_'], "-");
+            let found = WORDS.iter().find(|(known, _)| *known == word);
+            let words = WORDS.map(|(word, _)| word).join(", ");
+            let found =
+                found.ok_or_else(|| BadRow(format!("verdict: {text:?} is not one of {words}")));
+            found.map(|(_, claimed)| *claimed)
+        });
+        Ok(Self {
+            line: row.line,
+            name: row.cell("name").map(str::to_owned),
+            model: model.unwrap_or_default(),
+            verdict: verdict.transpose()?.flatten(),
+            rank: row.count("rank")?,
+            required: row.count("rank_required")?,
+            components: components.collect::<Result<_, _>>()?,
+        })
+    }
+
+    /// Refuses to rule where neither this nor the cell of another column, if it has one, claims anything.
+    pub(crate) fn ensure_some(&self, (column, has): (&str, bool)) -> Result<(), BadRow> {
+        let is_some = self.verdict.is_some() || self.rank.is_some() || !self.components.is_empty();
+        match is_some || has {
+            true => Ok(()),
+            false => Err(BadRow(format!(
+                "nothing is claimed: one of the columns verdict, rank, components, {column} is needed"
+            ))),
+        }
+    }
+
+    /// What is not so of the counts.
+    pub(crate) fn wrong(&self, rank: usize, required: usize, components: usize) -> Vec<String> {
+        let counts = self
+            .components
+            .iter()
+            .map(|&count| ("components", count, components));
+        let ranks = [
+            ("rank", self.rank, rank),
+            ("rank_required", self.required, required),
+        ];
+        let ranks = ranks
+            .into_iter()
+            .filter_map(|(what, claimed, is)| Some((what, claimed?, is)));
+        let wrong = counts.chain(ranks).filter(|(_, claimed, is)| claimed != is);
+        wrong
+            .map(|(what, claimed, is)| format!("claimed {what} {claimed}, is {is}"))
+            .collect()
+    }
+}
+
+/// What a row claims of a graph.
+#[derive(Clone, Debug)]
+pub struct OfGraph {
+    /// What is claimed of its cameras.
+    pub claim: Claim,
     /// The row, with the names of its graph and of the columns that are compared as they stand there.
     row: Row,
     /// The column that names the graph.
     column: &'static str,
     /// How the graph is read.
     read: ReadOptions,
-    verdict: Option<Claimed>,
-    /// Of `components` and all columns that begin so.
-    components: Vec<usize>,
     solutions: Option<Bounds>,
 }
 
@@ -114,47 +170,36 @@ impl Bounds {
 ///
 /// # Errors
 /// What it lacks.
-pub fn claim(row: &Row) -> Result<Claim, BadRow> {
+pub fn claim(row: &Row) -> Result<OfGraph, BadRow> {
     let bad = |why: &str| BadRow(why.to_owned());
-    let mut claim = Claim {
-        row: row.clone(),
-        ..Claim::default()
+    let read = match row.cell("options").map(serde_json::from_str) {
+        None => ReadOptions::default(),
+        Some(Ok(given)) => options(given)?,
+        Some(Err(_)) => return Err(bad("options: this is no JSON object of strings")),
     };
-    if let Some(given) = row.cell("options") {
-        let given = serde_json::from_str(given)
-            .map_err(|_| BadRow(format!("options: {given} is no JSON object of strings")))?;
-        claim.read = options(given)?;
-    }
     if let Some(error) = row.cell("error") {
-        return Err(BadRow(format!(
-            "nothing is claimed: the graph had no answer: {error}"
-        )));
+        let why = format!("nothing is claimed: the graph had no answer: {error}");
+        return Err(BadRow(why));
     }
     let mut columns = ["graph", "graph6", "file", "name"].into_iter();
     let named = columns.find(|column| row.cell(column).is_some());
     let none = "no graph is named: one of the columns graph, graph6, file, name is needed";
-    claim.column = named.ok_or_else(|| bad(none))?;
-    model(row)?;
-    for column in row
-        .cells
-        .keys()
-        .filter(|column| column.starts_with("components"))
-    {
-        claim.components.extend(row.count(column)?);
-    }
-    for column in ["nodes", "edges", "rank", "rank_required"] {
+    for column in ["nodes", "edges"] {
         row.count(column)?;
     }
+    let mut claim = Claim::new(row)?;
     let unique = row.cell("unique_by_contraction") == Some("1");
-    claim.verdict = verdict(row)?.or(unique.then_some(Claimed::Solvable));
-    claim.solutions = row.cell("solutions").map(Bounds::of).transpose()?;
-    let is_nothing = claim.components.is_empty() && row.cell("rank").is_none();
-    match is_nothing && claim.verdict.is_none() && claim.solutions.is_none() {
-        true => Err(bad(
-            "nothing is claimed: one of the columns verdict, components, solutions, rank is needed",
-        )),
-        false => Ok(claim),
-    }
+    claim.verdict = claim.verdict.or(unique.then_some(Claimed::Solvable));
+    let solutions = row.cell("solutions").map(Bounds::of).transpose()?;
+    let column = named.ok_or_else(|| bad(none))?;
+    claim.ensure_some(("solutions", solutions.is_some()))?;
+    Ok(OfGraph {
+        claim,
+        row: row.clone(),
+        column,
+        read,
+        solutions,
+    })
 }
 
 /// How the graph of a claim was read, by the options that were given.
@@ -171,76 +216,38 @@ fn options(mut given: BTreeMap<String, String>) -> Result<ReadOptions, BadRow> {
     })
 }
 
-impl Claim {
-    /// The model it is about.
-    pub fn model(&self) -> Model {
-        model(&self.row).unwrap_or_default()
-    }
-
-    /// How the graph is called, if that may be a name of the caller's, and whether it can be nothing else.
-    pub fn called(&self) -> Option<(&str, bool)> {
-        let is_name = matches!(self.column, "file" | "name");
-        Some((self.row.cell(self.column)?, is_name)).filter(|_| self.column != "graph6")
-    }
-
-    /// Reads the graph that it names: a file of the folder, with or without what follows the dot, a path, a path with
-    /// the number of a line, or a line of graph6. `refuse` is asked before a file is read, and says why not.
+impl OfGraph {
+    /// Reads the graph that it names: a path, a path with the number of a line, or a line of graph6.
     ///
     /// # Errors
     /// Why there is none.
-    pub fn graph(
-        &self,
-        folder: Option<&Path>,
-        refuse: &dyn Fn(&Path) -> Option<String>,
-    ) -> Result<NamedGraph, BadRow> {
+    pub fn graph(&self) -> Result<NamedGraph, BadRow> {
         let text = self.row.cell(self.column).unwrap_or_default();
-        let unknown = |why: &str| BadRow(format!("unknown graph {text}: {why}"));
-        let read = |path: &Path| match refuse(path) {
-            Some(why) => Err(BadRow(why)),
-            None => Ok(read_graphs(path, &self.read)),
-        };
-        let is_graph6 = graph6::is_graph6(text.as_bytes());
-        let as_graph6 = || {
-            let line = Cursor::new(format!("{text}\n").into_bytes());
-            only(text, graphs(text.to_owned(), line, ReadOptions::default()))
-        };
-        if self.column == "graph6" {
-            return as_graph6();
-        }
-        if text == "-" || text.starts_with("-:") {
-            let why = "it was read from standard input, and is not there any more; name its file";
-            return Err(unknown(why));
-        }
-        for base in folder.into_iter().chain([Path::new("")]) {
-            let path = base.join(text);
-            if path.exists() {
-                return only(text, read(&path)?);
+        let unknown = |why: &str| Err(BadRow(format!("unknown graph {text}: {why}")));
+        if self.column != "graph6" {
+            if text == "-" || text.starts_with("-:") {
+                return unknown(
+                    "it was read from standard input, and is not there any more; name its file",
+                );
+            }
+            if Path::new(text).exists() {
+                return only(text, read_graphs(Path::new(text), &self.read));
             }
             if let Some((file, line)) = text.rsplit_once(':')
                 && line.parse::<u64>().is_ok()
-                && base.join(file).is_file()
+                && Path::new(file).is_file()
             {
                 // Of what stands on other lines, nothing matters here.
-                let (name, file) = (path.display().to_string(), base.join(file));
-                let found = read(&file)?
-                    .filter_map(Result::ok)
-                    .find(|graph| graph.name == name);
-                return found.ok_or_else(|| unknown("no graph on that line"));
+                let graphs = read_graphs(Path::new(file), &self.read).filter_map(Result::ok);
+                let found = graphs.into_iter().find(|graph| graph.name == text);
+                return found.map_or_else(|| unknown("no graph on that line"), Ok);
             }
         }
-        match folder.map(|folder| (folder, by_stem(folder, text))) {
-            Some((_, found)) if !found.is_empty() => match &found[..] {
-                [path] => only(text, read(path)?),
-                all => {
-                    let all: Vec<String> =
-                        all.iter().map(|one| one.display().to_string()).collect();
-                    Err(unknown(&format!("it may be any of {}", all.join(", "))))
-                }
-            },
-            _ if self.column == "graph" && is_graph6 => as_graph6(),
-            Some((folder, _)) => Err(unknown(&format!("no such file in {}", folder.display()))),
-            None => Err(unknown("no such file; --graphs DIR says where files are")),
+        if self.column == "graph6" || self.column == "graph" && graph6::is_graph6(text.as_bytes()) {
+            let line = Cursor::new(format!("{text}\n").into_bytes());
+            return only(text, graphs(text.to_owned(), line, ReadOptions::default()));
         }
+        unknown("no such file; paths are those from the folder in which the program runs")
     }
 }
 
@@ -256,17 +263,6 @@ fn only(name: &str, mut graphs: Graphs) -> Result<NamedGraph, BadRow> {
             "{name}: several graphs, and a claim is about one"
         ))),
     }
-}
-
-/// The files of a folder that have this name before the dot.
-fn by_stem(folder: &Path, name: &str) -> Vec<PathBuf> {
-    let entries = std::fs::read_dir(folder).into_iter().flatten();
-    let files = entries.filter_map(|entry| Some(entry.ok()?.path()));
-    let mut files: Vec<PathBuf> = files
-        .filter(|file| file.file_stem().is_some_and(|stem| stem == name))
-        .collect();
-    files.sort_unstable();
-    files
 }
 
 /// What the exact decision says about a claim.
@@ -306,24 +302,24 @@ impl Ruling {
 /// # Errors
 /// No verdict.
 pub fn ruled(
-    claim: &Claim,
+    of: &OfGraph,
     input: &NamedGraph,
     options: &Options,
 ) -> Result<(Ruling, Verdict), VerdictError> {
-    let options = options.clone().model(claim.model());
+    let options = options.clone().model(of.claim.model);
     let mut verdict = decide(&input.graph, &options)?;
-    if let Some(why) = claim.another_graph(input, &verdict) {
+    if let Some(why) = of.another_graph(input, &verdict) {
         let why = format!("another graph is meant: {why}");
         return Ok((Ruling::NotDecidable(why), verdict));
     }
-    if claim.value(&verdict).is_none() || claim.number(&verdict).is_none() {
+    if of.value(&verdict).is_none() || of.number(&verdict).is_none() {
         let all = Question::with_solutions(CountSolutions::Full);
         verdict = decide(&input.graph, &options.question(all))?;
     }
-    Ok((claim.rule(&verdict), verdict))
+    Ok((of.rule(&verdict), verdict))
 }
 
-impl Claim {
+impl OfGraph {
     /// Why the graph that was decided is not the one that the claim is about.
     fn another_graph(&self, input: &NamedGraph, verdict: &Verdict) -> Option<String> {
         let (nodes, edges) = (input.graph.nodes(), input.graph.edges().len());
@@ -333,32 +329,25 @@ impl Claim {
             ("sha256", hex(&verdict.sha256)),
         ];
         found.into_iter().find_map(|(column, found)| {
-            let claimed = self
-                .row
-                .cell(column)
-                .filter(|claimed| claimed.to_lowercase() != found)?;
-            Some(format!("the row has {column} {claimed}, the graph {found}"))
+            let claimed = self.row.cell(column)?;
+            let why = || format!("the row has {column} {claimed}, the graph {found}");
+            (claimed.to_lowercase() != found).then(why)
         })
     }
 
     /// Whether the claimed verdict is right; nothing if it says more than is decided.
     fn value(&self, found: &Verdict) -> Option<bool> {
         use Claimed as C;
-        let several = found
-            .solutions
-            .as_ref()
-            .is_some_and(|count| count.at_least > 1);
-        let Some(claimed) = self.verdict else {
-            return Some(true);
-        };
-        Some(match claimed {
-            C::Solvable | C::NotSolvable if found.value == Value::FiniteSolvable && !several => {
-                return None;
-            }
-            C::Solvable => found.value == Value::Solvable,
-            C::NotSolvable => found.value != Value::Solvable,
-            C::FiniteSolvable => found.value != Value::NotFiniteSolvable,
-            C::NotFiniteSolvable => found.value == Value::NotFiniteSolvable,
+        let known = found.solutions.as_ref();
+        let is_open =
+            found.value == Value::FiniteSolvable && known.is_none_or(|known| known.at_least <= 1);
+        Some(match self.claim.verdict {
+            None => true,
+            Some(C::Solvable | C::NotSolvable) if is_open => return None,
+            Some(C::Solvable) => found.value == Value::Solvable,
+            Some(C::NotSolvable) => found.value != Value::Solvable,
+            Some(C::FiniteSolvable) => found.value != Value::NotFiniteSolvable,
+            Some(C::NotFiniteSolvable) => found.value == Value::NotFiniteSolvable,
         })
     }
 
@@ -379,51 +368,31 @@ impl Claim {
     /// Holds it against the exact verdict, which is that of its model.
     fn rule(&self, verdict: &Verdict) -> Ruling {
         let (mut wrong, mut open) = (Vec::new(), None);
-        let (found, known) = (verdict.value.name(), verdict.solutions.as_ref());
+        let (mut found, known) = (verdict.value.name().to_owned(), verdict.solutions.as_ref());
         let count = known.map_or_else(
             || "infinitely many solutions".to_owned(),
             ToString::to_string,
         );
-        let with = if known.is_some_and(|known| known.at_least > 1) {
-            format!(" with {count}")
-        } else {
-            String::new()
-        };
+        if known.is_some_and(|known| known.at_least > 1) {
+            found += &format!(" with {count}");
+        }
         for (right, column, what, found) in [
-            (self.value(verdict), "verdict", "", format!("{found}{with}")),
-            (
-                self.number(verdict),
-                "solutions",
-                "solutions ",
-                count.clone(),
-            ),
+            (self.value(verdict), "verdict", "", &found),
+            (self.number(verdict), "solutions", "solutions ", &count),
         ] {
+            let claimed = self.row.cell(column).unwrap_or("solvable");
             match right {
                 Some(true) => {}
-                Some(false) => {
-                    let claimed = self.row.cell(column).unwrap_or("solvable");
-                    wrong.push(format!("claimed {what}{claimed}, is {found}"));
-                }
+                Some(false) => wrong.push(format!("claimed {what}{claimed}, is {found}")),
                 None => {
                     open = Some(format!(
                         "finite solvable, and it is not decided how many solutions there are: {count}"
-                    ))
+                    ));
                 }
             }
         }
-        let components = self
-            .components
-            .iter()
-            .map(|&count| ("components", Some(count), verdict.components.len()));
-        let count = |column: &'static str| self.row.count(column).ok().flatten();
-        let ranks = [("rank", verdict.rank), ("rank_required", verdict.required)];
-        for (what, claimed, found) in
-            components.chain(ranks.map(|(what, is)| (what, count(what), is)))
-        {
-            if let Some(claimed) = claimed.filter(|&claimed| claimed != found) {
-                wrong.push(format!("claimed {what} {claimed}, is {found}"));
-            }
-        }
+        let (rank, required, components) = (verdict.rank, verdict.required, &verdict.components);
+        wrong.extend(self.claim.wrong(rank, required, components.len()));
         Ruling::new(&wrong, open)
     }
 }

@@ -4,18 +4,18 @@
 //! lies. An elimination in integers of 256 bits counts the eigenvalues of M^T M below a square and keeps what every
 //! division leaves over, so a count is a proof. Floating point only proposes the squares.
 
-use crate::linear::{envelope_order, gram};
+use crate::linear::{envelope_order, gram, reordered};
 use ethnum::{AsI256, I256};
 use std::cmp::Ordering;
 use viewcert::Model;
-use viewcert::at_cameras::Centres;
-use viewcert::geometry::camera::Camera;
-use viewcert::geometry::jacobian;
+use viewcert::at_cameras::{Centres, Here};
+use viewcert::geometry::jacobian::{self, SparseRows, VECH};
 use viewcert::graph::Graph;
 use viewcert::linalg::Ring;
 use viewcert::linalg::integer::{Integer, Integers};
 use viewcert::linalg::rational::{Rational, Rationals};
 use viewcert::watch::{Step, Stopped, Task, Watch};
+use viewcert::wording::counted;
 
 /// Columns at most: about an hour.
 const COLUMNS: usize = 3_600;
@@ -51,12 +51,7 @@ impl Matrix {
 
     /// The name in tables.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Plain => "J_P",
-            Self::Augmented => "J",
-            Self::Bearing => "bearing",
-            Self::BearingByLength => "R_B",
-        }
+        ["J_P", "J", "bearing", "R_B"][self as usize]
     }
 
     /// The model in which it is computed.
@@ -77,44 +72,46 @@ impl Matrix {
         }
     }
 
-    /// The most cameras that are enclosed, if a graph has more.
-    pub fn too_large(self, graph: &Graph) -> Option<usize> {
-        let most = match self.model() {
-            Model::Projective => COLUMNS / 12,
-            _ => COLUMNS / 3,
-        };
-        (graph.nodes() > most).then_some(most)
+    /// The columns of a camera.
+    fn width(self) -> usize {
+        if self.model().in_space() { 3 } else { 12 }
     }
 
-    /// Its entries; nothing if it takes cameras and there are centres alone.
-    fn entries(self, graph: &Graph, centres: &Centres, norm: &Rational) -> Option<Surds> {
-        let place = envelope_order(graph);
-        if self.model().in_space() {
+    /// The matrix times a power of two, with entries rounded to integers towards zero, and the power; nothing if it
+    /// takes cameras and there are centres alone.
+    fn rounded(self, graph: &Graph, centres: &Centres, norm: &Rational) -> Option<Rounded> {
+        if self.width() == 3 {
             let by_length = self == Self::BearingByLength;
-            return Some(bearing(graph, centres.places(), &place, by_length));
+            return Some(bearing(graph, centres.places(), by_length));
         }
-        let mut found = projective(graph, centres.cameras()?, &place, norm);
-        if self == Self::Augmented {
-            let (one, fraction) = (Integer::one(), found.fractions.len());
-            found.fractions.push([one.clone(), one]);
-            let gauge = jacobian::gauge(&Integers, graph, jacobian::reference(graph));
-            found.rows.extend(gauge.into_iter().map(|row| {
-                let entry = |(k, x)| (12 * place[k / 12] + k % 12, x, fraction);
-                row.into_iter().map(entry).collect()
-            }));
-        }
-        Some(found)
+        let is_framed = self == Self::Augmented;
+        Some(projective(graph, centres.cameras()?, norm, is_framed))
     }
 }
 
-/// A sparse matrix with entries e sqrt(a / b).
-#[derive(Default)]
-struct Surds {
-    columns: usize,
-    /// All a and b.
-    fractions: Vec<[Integer; 2]>,
-    /// For every entry its column, e, and the number of its fraction.
-    rows: Vec<Vec<(usize, Integer, usize)>>,
+/// A matrix of integers, which is 2^beta times the one that is meant, up to rounding; and beta.
+type Rounded = (SparseRows<I256>, i64);
+
+/// The beta for entries whose squares are a / b at most.
+fn beta([a, b]: &[Integer; 2]) -> i64 {
+    BITS - (a.bits() as i64 - b.bits() as i64 + 1).div_euclid(2) - 1
+}
+
+/// A fraction times 4^beta.
+fn scaled([a, b]: [Integer; 2], beta: i64) -> [Integer; 2] {
+    let power = |k: i64| Rational::scaled(Integer::one(), 4, k.max(0));
+    [
+        a.mul(power(beta).numerator()),
+        b.mul(power(-beta).numerator()),
+    ]
+}
+
+/// e sqrt(a / b), rounded towards zero.
+fn root_of(e: &Integer, [a, b]: &[Integer; 2]) -> I256 {
+    let square = e.mul(e).mul(a).div_rem_euclid(b).0;
+    let root = square.square_root().to_string().parse();
+    let root: I256 = root.unwrap_or_else(|_| unreachable!("entries have few bits"));
+    if e.sign().is_lt() { -root } else { root }
 }
 
 fn squares<'a>(entries: impl IntoIterator<Item = &'a Integer>) -> Integer {
@@ -122,96 +119,85 @@ fn squares<'a>(entries: impl IntoIterator<Item = &'a Integer>) -> Integer {
     entries.fold(Integer::zero(), |sum, x| sum.add(&x.mul(x)))
 }
 
-/// J_P at cameras, where all P_v and F_ij have one Frobenius norm.
-fn projective(graph: &Graph, cameras: &[[Integer; 12]], place: &[usize], norm: &Rational) -> Surds {
-    let fourth = [norm.numerator(), norm.denominator()].map(|x| {
+/// J_P at cameras, where all P_v and F_ij have one Frobenius norm; with the rows that fix frame and scales, J.
+fn projective(
+    graph: &Graph,
+    cameras: &[[Integer; 12]],
+    norm: &Rational,
+    is_framed: bool,
+) -> Rounded {
+    let [above, below] = [norm.numerator(), norm.denominator()].map(|x| {
         let square = x.mul(x);
         square.mul(&square)
     });
+    // No entry is above twice the square of the norm, or above 1.
+    let most = above.mul(&Integer::from(4u64)).add(&below);
+    let beta = beta(&[most, below.clone()]);
     let matrix =
         |p: &[Integer; 12]| std::array::from_fn(|r| std::array::from_fn(|c| p[4 * r + c].clone()));
-    let matrices: Vec<Camera<Integer>> = cameras.iter().map(matrix).collect();
-    let mut found = Surds {
-        columns: 12 * cameras.len(),
-        ..Surds::default()
-    };
-    for &(i, j) in graph.edges() {
+    let matrices: Vec<_> = cameras.iter().map(matrix).collect();
+    let exact = jacobian::jacobian(&Integers, graph, &matrices);
+    let mut rows = Vec::new();
+    for (block, &(i, j)) in exact.chunks(VECH.len()).zip(graph.edges()) {
         let ends = [i as usize, j as usize];
         let [p_i, p_j] = ends.map(|v| &matrices[v]);
-        let f = jacobian::fundamental(&Integers, p_i, p_j);
-        let of_f = squares(f.iter().flatten());
-        let (first, fraction) = (found.rows.len(), found.fractions.len());
+        let of_f = squares(jacobian::fundamental(&Integers, p_i, p_j).iter().flatten());
+        let of_f = below.mul(&of_f);
         // The columns of a camera are those of F times the other camera.
-        found.fractions.extend([1, 0].map(|other| {
-            let of_camera = squares(&cameras[ends[other]]);
-            [fourth[0].clone(), of_f.mul(&of_camera).mul(&fourth[1])]
+        let others = [ends[1], ends[0]]
+            .map(|other| scaled([above.clone(), of_f.mul(&squares(&cameras[other]))], beta));
+        rows.extend(block.iter().map(|row| {
+            let entry = |(k, e): &(usize, Integer)| {
+                (*k, root_of(e, &others[usize::from(k / 12 != ends[0])]))
+            };
+            row.iter().map(entry).collect()
         }));
-        found
-            .rows
-            .resize_with(first + jacobian::VECH.len(), Vec::new);
-        jacobian::edge_rows(&Integers, p_i, p_j, &f, |row, column, entry| {
-            if !entry.is_zero() {
-                let end = column / 12;
-                let at = 12 * place[ends[end]] + column % 12;
-                found.rows[first + row].push((at, entry, fraction + end));
-            }
-        });
     }
-    found
+    if is_framed {
+        let one = scaled([Integer::one(), Integer::one()], beta);
+        let gauge = jacobian::gauge(&Integers, graph, jacobian::reference(graph));
+        let entry = |(k, e)| (k, root_of(&e, &one));
+        rows.extend(
+            gauge
+                .into_iter()
+                .map(|row| row.into_iter().map(entry).collect()),
+        );
+    }
+    (rows, beta)
 }
 
 /// The bearing matrices, at centres that are not at infinity.
-fn bearing(graph: &Graph, places: &[[Integer; 4]], place: &[usize], by_length: bool) -> Surds {
-    let mut found = Surds {
-        columns: 3 * places.len(),
-        ..Surds::default()
-    };
-    for &(i, j) in graph.edges() {
+fn bearing(graph: &Graph, places: &[[Integer; 4]], by_length: bool) -> Rounded {
+    let pair = |&(i, j): &(u32, u32)| {
         let [a, b] = [i, j].map(|v| &places[v as usize]);
         let d: [Integer; 3] = std::array::from_fn(|k| a[k].mul(&b[3]).sub(&b[k].mul(&a[3])));
         let (square, weight) = (squares(&d), a[3].mul(&b[3]));
-        found.fractions.push(match by_length {
-            true => [weight.mul(&weight), square.mul(&square).mul(&square)],
-            false => [Integer::one(), square.mul(&square)],
-        });
-        let fraction = found.fractions.len() - 1;
-        for r in 0..3 {
-            let mut row = Vec::with_capacity(6);
-            for (v, sign) in [(i, 1i64), (j, -1)] {
-                row.extend((0..3).map(|c| {
-                    let all = if r == c {
-                        square.clone()
-                    } else {
-                        Integer::zero()
-                    };
-                    let entry = all.sub(&d[r].mul(&d[c])).mul(&Integer::from(sign));
-                    (3 * place[v as usize] + c, entry, fraction)
-                }));
-            }
-            row.retain(|(_, entry, _)| !entry.is_zero());
-            found.rows.push(row);
-        }
+        let most = match by_length {
+            true => [weight.mul(&weight), square.clone()],
+            false => [Integer::one(), Integer::one()],
+        };
+        (d, square, most)
+    };
+    let pairs: Vec<_> = graph.edges().iter().map(pair).collect();
+    let beta = pairs.iter().map(|(.., most)| beta(most)).min().unwrap_or(0);
+    let mut rows = Vec::new();
+    for (&(i, j), (d, square, [a, b])) in graph.edges().iter().zip(pairs) {
+        let by = scaled([a, b.mul(&square).mul(&square)], beta);
+        rows.extend((0..3).map(|r| {
+            let entry = |c: usize| {
+                let all = if r == c {
+                    square.clone()
+                } else {
+                    Integer::zero()
+                };
+                root_of(&all.sub(&d[r].mul(&d[c])), &by)
+            };
+            let of =
+                |v: u32, sign: I256| (0..3).map(move |c| (3 * v as usize + c, sign * entry(c)));
+            of(i, I256::ONE).chain(of(j, -I256::ONE)).collect()
+        }));
     }
-    found
-}
-
-/// The largest integer whose square is at most x >= 0.
-fn square_root(x: &Integer) -> Integer {
-    let mut root = power_of_two(x.bits().div_ceil(2) as i64);
-    while !root.is_zero() {
-        let next = root.add(&x.div_rem_euclid(&root).0);
-        let next = next.div_rem_euclid(&Integer::from(2u64)).0;
-        if next.sub(&root).sign() != Ordering::Less {
-            break;
-        }
-        root = next;
-    }
-    root
-}
-
-fn power_of_two(k: i64) -> Integer {
-    let power = Rational::scaled(Integer::one(), 2, k);
-    power.numerator().clone()
+    (rows, beta)
 }
 
 /// M^T M of a rounded matrix M.
@@ -225,55 +211,27 @@ struct Gram {
 }
 
 impl Gram {
-    fn new(meant: &Surds) -> Self {
-        let entries = meant.rows.iter().flatten();
-        let bits = entries.clone().map(|(_, e, fraction)| {
-            let [a, b] = &meant.fractions[*fraction];
-            2 * e.bits() as i64 + a.bits() as i64 - b.bits() as i64 + 1
-        });
-        let beta = BITS - bits.max().unwrap_or(0).div_euclid(2) - 1;
-        // |e| sqrt(a / b) 2^beta, rounded down.
-        let rounded = |(column, e, fraction): &(usize, Integer, usize)| {
-            let [a, b] = &meant.fractions[*fraction];
-            let [up, down] = [beta.max(0), (-beta).max(0)].map(|k| power_of_two(2 * k));
-            let square = e.mul(e).mul(a).mul(&up).div_rem_euclid(&b.mul(&down)).0;
-            let root = of_integer(&square_root(&square));
-            (*column, if e.sign().is_lt() { -root } else { root })
-        };
-        let rows = meant
-            .rows
-            .iter()
-            .map(|row| row.iter().map(rounded).collect());
-        let rows: Vec<Vec<(usize, I256)>> = rows.collect();
-        let error = square_root(&Integer::from(entries.count() as u64)).add(&Integer::one());
-        Self {
-            rows: gram(&rows, meant.columns),
-            beta,
-            error,
-        }
-    }
-
     /// Eliminates H = M^T M - shift: C S C^T + E with a triangle C of integers and signs S. Nothing if numbers grow too
     /// much. O(N^3) products of integers, less what stands before the first entries of rows.
     fn eliminated(&self, shift: I256, task: &Task<'_>) -> Result<Option<Inertia>, Stopped> {
-        let mut found = Inertia::default();
+        let (mut found, most) = (Inertia::default(), I256::ONE << FACTOR_BITS);
         // C, and C S.
-        let mut factors: Vec<[Vec<I256>; 2]> = Vec::with_capacity(self.rows.len());
+        let mut factors: Vec<Vec<[I256; 2]>> = Vec::with_capacity(self.rows.len());
         let mut remainders = vec![I256::ZERO; self.rows.len()];
-        let (mut signs, most) = (Vec::new(), I256::ONE << FACTOR_BITS);
+        let mut signs = Vec::new();
         let work = task.begin(self.rows.len() as u64);
         for (i, (from, given)) in self.rows.iter().enumerate() {
             work.done(1)?;
-            let mut own: [Vec<I256>; 2] = [Vec::with_capacity(given.len()), Vec::new()];
+            let mut own = Vec::with_capacity(given.len());
             for (j, &entry) in (*from..).zip(given) {
                 let (other, first) = (factors.get(j).unwrap_or(&own), self.rows[j].0);
                 let both = first.max(*from).min(j);
-                let pairs = own[0][both - from..]
+                let pairs = own[both - from..]
                     .iter()
-                    .zip(&other[1][both.saturating_sub(first)..]);
-                let left = entry - pairs.fold(I256::ZERO, |sum, (&x, &y)| sum + x * y);
+                    .zip(&other[both.saturating_sub(first)..]);
+                let left = entry - pairs.fold(I256::ZERO, |sum, (x, y)| sum + x[0] * y[1]);
                 let (factor, remainder) = if j < i {
-                    let divisor = other[1][j - first];
+                    let divisor = other[j - first][1];
                     (left / divisor, left % divisor)
                 } else {
                     let left = left - shift;
@@ -290,12 +248,14 @@ impl Gram {
                 if j < i {
                     remainders[j] += remainder.abs();
                 }
-                own[0].push(factor);
-                own[1].push(if signs[j] < I256::ZERO {
-                    -factor
-                } else {
-                    factor
-                });
+                own.push([
+                    factor,
+                    if signs[j] < I256::ZERO {
+                        -factor
+                    } else {
+                        factor
+                    },
+                ]);
             }
             factors.push(own);
         }
@@ -323,9 +283,25 @@ fn root(square: I256) -> I256 {
     })
 }
 
-fn of_integer(x: &Integer) -> I256 {
-    let found = x.to_string().parse();
-    found.unwrap_or_else(|_| unreachable!("{x} has few bits"))
+/// Why a singular value is not enclosed.
+#[derive(Clone, Debug, thiserror::Error)]
+pub enum SigmaError {
+    /// More cameras than that.
+    #[error("sigma: {}, and it is enclosed for up to {most}", counted(*.cameras, "camera"))]
+    TooLarge {
+        /// Cameras of the graph.
+        cameras: usize,
+        /// Cameras at most.
+        most: usize,
+    },
+    /// The matrix takes whole cameras.
+    #[error(
+        "sigma: {0} takes whole cameras, and the file gives centres alone; give `camera` or `pose`"
+    )]
+    CentresAlone(&'static str),
+    /// Work was stopped.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
 }
 
 /// Two fractions between which a singular value lies.
@@ -353,14 +329,10 @@ impl Enclosure {
     fn new(gram: &Gram, low: I256, high: I256) -> Self {
         let root = |x: I256| {
             let x = Integer::from_decimal(&x.to_string());
-            square_root(&x.unwrap_or_else(|_| unreachable!("these are digits")))
+            x.unwrap_or_else(|_| unreachable!("these are digits"))
+                .square_root()
         };
-        let least = root(low).sub(&gram.error);
-        let least = if least.sign().is_lt() {
-            Integer::zero()
-        } else {
-            least
-        };
+        let least = root(low).sub(&gram.error).max(Integer::zero());
         let most = root(high).add(&gram.error).add(&Integer::one());
         let [least, most] = [least, most].map(|x| Rational::scaled(x, 2, -gram.beta));
         Self { least, most }
@@ -406,26 +378,40 @@ fn outward(x: &Rational, up: bool) -> f64 {
     }
 }
 
-/// Encloses the singular value at [`Matrix::place`] in nine digits at least, and until it is surely within `claimed` or
-/// surely not; or until rounding to 100 bits hides more. `norm` is the positive one of cameras and fundamental matrices,
-/// 10 in the literature; bearings have none. Nothing if the matrix takes cameras, and centres alone are given. About a
-/// dozen eliminations, each O(N^3), N the columns.
+/// Encloses the singular value at [`Matrix::place`] at cameras of which the answer is known: exactly zero where the rank
+/// is not full, else in nine digits at least, and until it is surely within `claimed` or surely not; or until rounding to
+/// 100 bits hides more. `norm` is the positive one of cameras and fundamental matrices, 10 in the literature; bearings
+/// have none. About a dozen eliminations, each O(N^3), N the columns.
 ///
 /// # Errors
-/// Work that was stopped.
+/// See [`SigmaError`].
 pub fn enclose(
     matrix: Matrix,
     graph: &Graph,
-    centres: &Centres,
-    norm: Option<&Rational>,
-    claimed: Option<&[Rational; 2]>,
+    (centres, here): (&Centres, &Here),
+    (norm, claimed): (Option<&Rational>, Option<&[Rational; 2]>),
     watch: &Watch,
-) -> Result<Option<Enclosure>, Stopped> {
+) -> Result<Enclosure, SigmaError> {
+    if !here.is_determined() {
+        return Ok(Enclosure::zero());
+    }
+    let (cameras, most) = (graph.nodes(), COLUMNS / matrix.width());
+    if cameras > most {
+        return Err(SigmaError::TooLarge { cameras, most });
+    }
     let usual = Rational::from(Integer::from(10u64));
-    let Some(meant) = matrix.entries(graph, centres, norm.unwrap_or(&usual)) else {
-        return Ok(None);
+    let rounded = matrix.rounded(graph, centres, norm.unwrap_or(&usual));
+    let (mut rows, beta) = rounded.ok_or(SigmaError::CentresAlone(matrix.name()))?;
+    let entries: usize = rows.iter().map(Vec::len).sum();
+    reordered(&mut rows, matrix.width(), &envelope_order(graph));
+    let gram = Gram {
+        rows: gram(&rows, matrix.width() * cameras),
+        beta,
+        error: Integer::from(entries as u64)
+            .square_root()
+            .add(&Integer::one()),
     };
-    let (gram, place) = (Gram::new(&meant), matrix.place(graph.nodes()));
+    let place = matrix.place(cameras);
     let diagonal = gram.rows.iter().filter_map(|(_, row)| row.last());
     let (mut low, mut high) = (I256::ZERO, diagonal.fold(I256::ONE, |sum, &x| sum + x));
     // Below the value det(M^T M - s) / (-s)^(place - 1), up to rounding a polynomial with real roots, falls and is convex:
@@ -476,5 +462,5 @@ pub fn enclose(
             below.sort_by(|a, b| a[0].total_cmp(&b[0]));
         }
     }
-    Ok(Some(Enclosure::new(&gram, low, high)))
+    Ok(Enclosure::new(&gram, low, high))
 }

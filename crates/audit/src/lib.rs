@@ -18,7 +18,7 @@ pub mod linear;
 pub mod softness;
 pub mod table;
 
-use linear::{Doubles, Inverse, envelope_order};
+use linear::{Doubles, Inverse, envelope_order, reordered};
 use rayon::prelude::*;
 use std::time::{Duration, Instant};
 use viewcert::decide::{Value, Verdict};
@@ -166,13 +166,6 @@ pub fn augmented(graph: &Graph, seed: u64, draw: u64) -> SparseRows<f64> {
     rows
 }
 
-/// Puts columns where [`envelope_order`] has their nodes.
-fn reordered(rows: &mut SparseRows<f64>, place: &[usize]) {
-    for (column, _) in rows.iter_mut().flatten() {
-        *column = 12 * place[*column / 12] + *column % 12;
-    }
-}
-
 /// The verdict at one draw.
 ///
 /// # Errors
@@ -182,7 +175,7 @@ pub fn decide(graph: &Graph, options: &Options, draw: u64) -> Result<Outcome, Au
         return Err(AuditError::NoPairs);
     }
     let mut j = augmented(graph, options.seed, draw);
-    reordered(&mut j, &envelope_order(graph));
+    reordered(&mut j, 12, &envelope_order(graph));
     let (values, _) = Inverse::new(&j, 12 * graph.nodes())?.smallest(1, 1e-10)?;
     let smallest = values[0];
     Ok(Outcome {
@@ -211,7 +204,7 @@ pub fn components(graph: &Graph, options: &Options, draw: u64) -> Result<Vec<usi
     for number in 0.. {
         let mut j = rows.clone();
         j.extend(jacobian::gauge(&Doubles, graph, frame));
-        reordered(&mut j, &place);
+        reordered(&mut j, 12, &place);
         let null = Inverse::new(&j, 12 * graph.nodes())?.null_space(options.tolerance)?;
         let vanishes = |v: u32| {
             let of = |x: &Vec<f64>| {

@@ -140,6 +140,13 @@ pub(crate) fn envelope_order(graph: &Graph) -> Vec<usize> {
     place
 }
 
+/// Puts the columns of each node, so many, where [`envelope_order`] has it.
+pub(crate) fn reordered<T>(rows: &mut SparseRows<T>, width: usize, place: &[usize]) {
+    for (column, _) in rows.iter_mut().flatten() {
+        *column = width * place[*column / width] + *column % width;
+    }
+}
+
 /// M^T M below and on its diagonal, for a sparse M: of each row the column of the first entry that is not zero, and all
 /// from there on.
 pub(crate) fn gram<T>(matrix: &[Vec<(usize, T)>], columns: usize) -> Vec<(usize, Vec<T>)>

@@ -31,98 +31,75 @@ pub struct TableError {
 #[error("{0}")]
 pub struct BadRow(pub String);
 
-/// The columns of a kind of table, between blanks.
-#[derive(Clone, Copy)]
-pub(crate) struct Columns<'a> {
-    /// Those that claim something. A name that ends with `_` stands for all that begin so.
-    known: &'static str,
-    /// Those that claim nothing.
-    silent: &'static str,
-    /// Those of the caller that claim nothing.
-    ignored: &'a [String],
-}
-
-/// A line, and what is wrong there.
-type Problem = (usize, String);
-
-impl<'a> Columns<'a> {
-    pub(crate) fn new(known: &'static str, silent: &'static str, ignored: &'a [String]) -> Self {
-        Self {
-            known,
-            silent,
-            ignored,
+/// Reads a table that may have these columns, between blanks, and others that claim nothing. A name that ends with `_`
+/// stands for all that begin so.
+///
+/// # Errors
+/// The table is refused whole.
+pub(crate) fn read(text: &str, known: &str, silent: &str) -> Result<Vec<Row>, TableError> {
+    let refused = |line, problem: String| TableError { line, problem };
+    let text = text.trim_start_matches('\u{feff}');
+    if text.trim_start().starts_with(['[', '{']) {
+        let problem = "this is JSON, and a table of claims is CSV; in Python: \
+                       pandas.read_json('FILE').to_csv('claims.csv', index=False)";
+        return Err(refused(1, problem.to_owned()));
+    }
+    let head = text.lines().find(|line| !line.trim().is_empty());
+    let has = |&byte: &u8| head.is_some_and(|head| head.contains(char::from(byte)));
+    let separator = [b'\t', b';'].into_iter().find(has).unwrap_or(b',');
+    let lines = csv::lines(text, separator);
+    let quote = "a quoted cell does not end on its line".to_owned();
+    let lines = lines.map_err(|open| refused(open.line, quote))?;
+    let [(number, head), rows @ ..] = &lines[..] else {
+        let why = "the table is empty: a head with the names of the columns is needed";
+        return Err(refused(1, why.to_owned()));
+    };
+    let head: Vec<String> = head.iter().map(|cell| cell.trim().to_lowercase()).collect();
+    let is = |column: &str, names: &str| {
+        let is = |name: &str| column == name || name.ends_with('_') && column.starts_with(name);
+        names.split_whitespace().any(is)
+    };
+    for (k, column) in head.iter().enumerate() {
+        if !is(column, known) && !is(column, silent) {
+            let names: Vec<&str> = known
+                .split_whitespace()
+                .filter(|name| !name.ends_with('_'))
+                .collect();
+            let names = names.join(", ");
+            return Err(refused(
+                *number,
+                format!(
+                    "unknown column {column:?}; known are {names}; correct it, or leave it out"
+                ),
+            ));
+        }
+        if head[..k].contains(column) {
+            return Err(refused(
+                *number,
+                format!("column {column:?} stands there twice"),
+            ));
         }
     }
-
-    /// Whether the cells of a column are kept; an error where it is not known.
-    fn keeps(&self, column: &str) -> Result<bool, String> {
-        let is = |name: &&str| column == *name || name.ends_with('_') && column.starts_with(name);
-        let is_ignored = self
-            .ignored
-            .iter()
-            .any(|name| name.to_lowercase() == column);
-        let [known, silent] = [self.known, self.silent].map(str::split_whitespace);
-        match (known.clone().any(|name| is(&name)), is_ignored) {
-            (true, false) => Ok(true),
-            (false, false) if !silent.clone().any(|name| is(&name)) => Err(format!(
-                "unknown column {column:?}; known are {}; correct it, leave it out, or name it with --ignore {column:?}",
-                known
-                    .filter(|name| !name.ends_with('_'))
-                    .collect::<Vec<_>>()
-                    .join(", ")
-            )),
-            _ => Ok(false),
-        }
+    if rows.is_empty() {
+        return Err(refused(
+            1,
+            "the table has no rows, and so claims nothing".to_owned(),
+        ));
     }
-
-    /// Reads a table.
-    pub(crate) fn read(&self, text: &str) -> Result<Vec<Row>, TableError> {
-        let text = text.trim_start_matches('\u{feff}');
-        if text.trim_start().starts_with(['[', '{']) {
-            let problem = "this is JSON, and a table of claims is CSV; in Python: \
-                           pandas.read_json('FILE').to_csv('claims.csv', index=False)";
-            return Err(TableError {
-                line: 1,
-                problem: problem.to_owned(),
-            });
+    let row = |(line, cells): &(usize, csv::StringRecord)| {
+        if cells.len() != head.len() {
+            let found = counted(cells.len(), "cell");
+            let why = format!("{found}, and the head has {}", head.len());
+            return Err(refused(*line, why));
         }
-        let rows = self.lines(text);
-        let none = (1, "the table has no rows, and so claims nothing".to_owned());
-        let rows = rows.and_then(|rows| if rows.is_empty() { Err(none) } else { Ok(rows) });
-        rows.map_err(|(line, problem)| TableError { line, problem })
-    }
-
-    fn lines(&self, text: &str) -> Result<Vec<Row>, Problem> {
-        let mut heads = text.lines().filter(|line| !line.trim().is_empty());
-        let head = heads.next().unwrap_or_default();
-        let mut separators = [b'\t', b';'].into_iter();
-        let separator = separators.find(|&byte| head.contains(char::from(byte)));
-        let lines = csv::lines(text, separator.unwrap_or(b','));
-        let quote = "a quoted cell does not end on its line".to_owned();
-        let mut lines = lines.map_err(|open| (open.line, quote))?.into_iter();
-        let empty = "the table is empty: a head with the names of the columns is needed".to_owned();
-        let (number, head) = lines.next().ok_or((1, empty))?;
-        let head: Vec<String> = head.iter().map(|cell| cell.trim().to_lowercase()).collect();
-        let mut kept = Vec::with_capacity(head.len());
-        for (k, column) in head.iter().enumerate() {
-            kept.push(self.keeps(column).map_err(|problem| (number, problem))?);
-            if head[..k].contains(column) {
-                return Err((number, format!("column {column:?} stands there twice")));
-            }
-        }
-        let row = |(line, cells): (usize, csv::StringRecord)| {
-            if cells.len() != head.len() {
-                let found = counted(cells.len(), "cell");
-                return Err((line, format!("{found}, and the head has {}", head.len())));
-            }
-            let cells = head.iter().zip(cells.iter().map(str::trim)).zip(&kept);
-            let cells = cells.filter(|((_, cell), is_kept)| **is_kept && !cell.is_empty());
-            let cells = cells.map(|((column, cell), _)| (column.clone(), unguarded(cell)));
-            let cells = cells.collect();
-            Ok(Row { line, cells })
-        };
-        lines.map(row).collect()
-    }
+        let cells = head.iter().zip(cells.iter().map(str::trim));
+        let cells = cells.filter(|(column, cell)| is(column, known) && !cell.is_empty());
+        let cells = cells
+            .map(|(column, cell)| (column.clone(), unguarded(cell)))
+            .collect();
+        Ok(Row { line: *line, cells })
+    };
+    rows.iter().map(row).collect()
 }
 
 /// A cell without the apostrophe that keeps programs from taking it for a formula.
@@ -158,17 +135,19 @@ impl Row {
 mod tests {
     use super::*;
 
-    const COLUMNS: Columns = Columns {
-        known: "graph name components components_ rank",
-        silent: "seconds seconds_",
-        ignored: &[],
-    };
+    fn read(text: &str) -> Result<Vec<Row>, TableError> {
+        super::read(
+            text,
+            "graph name components components_ rank",
+            "seconds seconds_",
+        )
+    }
 
     #[test]
     fn tables() {
         let csv = "Name,Components,seconds_mine\n\"Tower, \"\"London\"\"\",4,x\r\n\nRome,1,\n";
         for text in [csv, &csv.replace(',', ";"), &csv.replace(',', "\t")] {
-            let rows = COLUMNS.read(text).unwrap();
+            let rows = read(text).unwrap();
             assert_eq!(rows.len(), 2);
             assert!(
                 rows[0].cells["name"].starts_with("Tower")
@@ -179,16 +158,10 @@ mod tests {
             assert_eq!(rows[1].cells.len(), 2);
         }
         let windows = "\u{feff}name,rank\r\n \r\na,1\r\n'=b,\"2\"\r\n";
-        let rows = COLUMNS.read(windows).unwrap();
+        let rows = read(windows).unwrap();
         assert_eq!((rows[0].line, rows[1].line), (3, 4));
         assert_eq!([&rows[0].cells["rank"], &rows[1].cells["rank"]], ["1", "2"]);
         assert_eq!(rows[1].cells["name"], "=b");
-        let ignored = ["Note".to_owned()];
-        let columns = Columns {
-            ignored: &ignored,
-            ..COLUMNS
-        };
-        assert_eq!(columns.read("name,note\na,b\n").unwrap()[0].cells.len(), 1);
     }
 
     #[test]
@@ -206,7 +179,7 @@ mod tests {
             ("[{}", 1, "this is JSON"),
             ("{\"rank\": 1}\n", 1, "pandas.read_json"),
         ] {
-            let error = COLUMNS.read(text).unwrap_err();
+            let error = read(text).unwrap_err();
             assert_eq!(error.line, line, "{text:?}: {error}");
             assert!(error.problem.contains(why), "{text:?}: {error}");
         }

@@ -1,8 +1,8 @@
 use super::*;
-use crate::enclosure::{Enclosure, Matrix, enclose};
+use crate::enclosure::{Enclosure, Matrix, SigmaError, enclose};
 use proptest::prelude::*;
 use viewcert::Model;
-use viewcert::at_cameras::Centres;
+use viewcert::at_cameras::{Centres, at_cameras};
 use viewcert::linalg::integer::{Integer, Integers};
 use viewcert::linalg::rational::Rational;
 use viewcert::watch::Watch;
@@ -136,9 +136,14 @@ fn rationals<const K: usize>(entries: [i64; K]) -> [Rational; K] {
     entries.map(|x| Integer::from(x).into())
 }
 
+fn enclosed(matrix: Matrix, graph: &Graph, centres: &Centres) -> Result<Enclosure, SigmaError> {
+    let watch = &Watch::default();
+    let here = at_cameras(graph, centres, watch).unwrap();
+    enclose(matrix, graph, (centres, &here), (None, None), watch)
+}
+
 fn found(matrix: Matrix, graph: &Graph, centres: &Centres) -> Enclosure {
-    let found = enclose(matrix, graph, centres, None, None, &Watch::default());
-    found.unwrap().unwrap()
+    enclosed(matrix, graph, centres).unwrap()
 }
 
 /// By hand: two cameras at distance 2 along the first axis. I - g g^T has rank 2, so the matrix has the singular values
@@ -157,16 +162,15 @@ fn a_pair_of_directions() {
         assert!(expected <= most * (1.0 + 1e-15), "{found:?}");
         assert!(narrow(&found), "{found:?}");
     }
-    let graph = complete(2);
-    let nothing = enclose(
-        Matrix::Plain,
-        &graph,
-        &centres,
-        None,
-        None,
-        &Watch::default(),
-    );
-    assert_eq!(nothing.unwrap(), None);
+}
+
+/// A matrix of whole cameras cannot be had from centres.
+#[test]
+fn centres_alone() {
+    let points: Vec<_> = (0..4).map(|k| rationals([k, k * k, k * k * k])).collect();
+    let centres = Centres::of_points(Model::Projective, &points).unwrap();
+    let nothing = enclosed(Matrix::Plain, &complete(4), &centres);
+    assert!(matches!(nothing, Err(SigmaError::CentresAlone("J_P"))));
 }
 
 /// Three on a line that is bent by 2^-14, 2^-24 and 2^-34: the value falls with the bend, far below where the squares of

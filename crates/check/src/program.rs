@@ -207,7 +207,6 @@ fn other_option(option: &str) -> String {
         "intrinsics" => "--intrinsics is about files that this program does not read; say --classes HEX, the hash that \
                          `verify GRAPH --intrinsics FILE --json` prints"
             .into(),
-        "proved" => "--proved: `verify check` asks viewcert-proved as well".into(),
         _ => format!("there is no option --{option}"),
     }
 }

@@ -23,14 +23,16 @@ pub struct Parsed {
     pub notes: Vec<String>,
 }
 
-/// How an input was read.
+/// How an input was read; the member `read` of reports.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ReadAs {
     /// What it was taken for: `edge list`, `graph6`, `COLMAP database`.
     pub format: Cow<'static, str>,
     /// What it was compressed by, if it was.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub compression: Option<Cow<'static, str>>,
     /// What of it became the graph: `names in columns 1 and 2`, `variable A`.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub taken: Option<String>,
     /// What was left out, a short phrase each: `column 3 (weights?)`, `4 lines of comments`.
     pub ignored: Vec<String>,
@@ -39,7 +41,7 @@ pub struct ReadAs {
     /// How many pairs were given again, the same or reversed, and merged.
     pub merged: usize,
     /// What had to be said to read it so, as [`ReadOptions::given`](crate::ReadOptions::given) has it.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub options: BTreeMap<String, String>,
 }
 

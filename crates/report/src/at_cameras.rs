@@ -1,7 +1,8 @@
 //! What is determined at cameras that are given, in words and in JSON (docs/theory.md, section 16).
 
 use super::{counted, text};
-use serde::Serialize;
+use crate::shown::{row, some};
+use serde_json::{Value, json};
 use std::io::{self, Write};
 use viewcert::at_cameras::{Centres, Here, Motion, Special};
 use viewcert::certificate::hex;
@@ -102,11 +103,8 @@ impl HereReport<'_> {
         let here = self.here;
         let strength = text::strength(here.rank.strength);
         let is = if self.is_determined() { "" } else { "not " };
-        writeln!(
-            out,
-            "  at cameras  {is}determined: {} ({strength})",
-            self.means()
-        )?;
+        let answer = format!("{is}determined: {} ({strength})", self.means());
+        row(out, "at cameras", answer)?;
         if !self.open.is_empty() {
             let names = self.names(self.open, SHOWN);
             writeln!(
@@ -117,58 +115,58 @@ impl HereReport<'_> {
             )?;
         }
         if self.is_degenerate() {
-            let rank = self.verdict.rank;
-            writeln!(
-                out,
-                "  degenerate  the rank is {rank} at cameras in general position"
-            )?;
+            let words = format!(
+                "the rank is {} at cameras in general position",
+                self.verdict.rank
+            );
+            row(out, "degenerate", words)?;
         }
         let motions = match here.motions() {
             0 => String::new(),
             some => format!("; motions of dimension {some}"),
         };
         let (rank, required) = (here.rank.value, here.required);
-        writeln!(
+        row(
             out,
-            "  rank here   {rank} of {required} ({strength}){motions}"
+            "rank here",
+            format_args!("{rank} of {required} ({strength}){motions}"),
         )?;
         let components = &here.components;
         let strength = text::strength(components.strength);
-        let sizes = components.value.iter().take(SHOWN).map(|component| {
+        let sizes = components.value.iter().map(|component| {
             let pairs = counted(component.edge_count(), "pair");
             format!("{} / {pairs}", counted(component.node_count(), "camera"))
         });
-        let more = components.value.len().saturating_sub(SHOWN);
-        let more = (more > 0).then(|| format!("{more} more"));
-        let sizes: Vec<String> = sizes.chain(more).collect();
-        let (count, sizes) = (components.value.len(), sizes.join(", "));
-        writeln!(out, "  parts here  {count} ({strength}): {sizes}")?;
+        let (count, sizes) = (components.value.len(), some(&Vec::from_iter(sizes), ", "));
+        row(
+            out,
+            "parts here",
+            format_args!("{count} ({strength}): {sizes}"),
+        )?;
         if list_components {
             for (k, component) in (1..).zip(&components.value) {
-                writeln!(
-                    out,
-                    "  part {k} here: {}",
-                    self.names(&component.nodes(), usize::MAX)
-                )?;
+                let names = self.names(&component.nodes(), usize::MAX);
+                writeln!(out, "  part {k} here: {names}")?;
             }
         }
         for special in here.special.iter().take(SHOWN) {
             let (what, nodes) = (place(special, here.model), special.nodes());
-            let count = counted(nodes.len(), "camera");
-            writeln!(
-                out,
-                "  special     {count} {what}: {}",
-                self.names(nodes, SHOWN)
-            )?;
+            let (count, names) = (counted(nodes.len(), "camera"), self.names(nodes, SHOWN));
+            row(out, "special", format_args!("{count} {what}: {names}"))?;
         }
         if here.special.len() > SHOWN {
             let more = here.special.len() - SHOWN;
-            writeln!(
+            row(
                 out,
-                "  special     {more} more such sets (--json lists them)"
+                "special",
+                format_args!("{more} more such sets (--json lists them)"),
             )?;
         }
-        writeln!(out, "  centres     SHA-256 {}", hex(&here.sha256))
+        row(
+            out,
+            "centres",
+            format_args!("SHA-256 {}", hex(&here.sha256)),
+        )
     }
 
     fn names(&self, nodes: &[u32], most: usize) -> String {
@@ -178,38 +176,42 @@ impl HereReport<'_> {
         names.chain(more).collect::<Vec<_>>().join(" ")
     }
 
-    /// The member of JSON.
-    pub(super) fn line(&self, list_components: bool) -> HereLine {
+    /// The member of JSON; of special sets the first hundred.
+    pub(super) fn line(&self, list_components: bool) -> Value {
         let here = self.here;
         let labels = |nodes: &[u32]| -> Vec<String> {
             let label = |&v: &u32| self.input.labels.label(v).into_owned();
             nodes.iter().map(label).collect()
         };
-        let components = here.components.value.iter().map(|component| PartLine {
-            nodes: component.node_count(),
-            edges: component.edge_count(),
-            labels: list_components.then(|| labels(&component.nodes())),
+        let components = here.components.value.iter().map(|part| {
+            let mut line = json!({ "nodes": part.node_count(), "edges": part.edge_count() });
+            if list_components {
+                line["labels"] = labels(&part.nodes()).into();
+            }
+            line
         });
-        let special = here.special.iter().take(LISTED).map(|special| SpecialLine {
-            kind: special.name(),
-            labels: labels(special.nodes()),
+        let special = here.special.iter().take(LISTED);
+        let special =
+            special.map(|set| json!({ "kind": set.name(), "labels": labels(set.nodes()) }));
+        let mut line = json!({
+            "determined": self.is_determined(),
+            "means": self.means(),
+            "degenerate": self.is_degenerate(),
+            "strength": here.rank.strength.name(),
+            "error_log2": here.rank.strength.error_log2(),
+            "rank": here.rank.value,
+            "rank_required": here.required,
+            "motions": here.motions(),
+            "components": Vec::from_iter(components),
+            "components_strength": here.components.strength.name(),
+            "special": Vec::from_iter(special),
+            "special_sets": here.special.len(),
+            "centres_sha256": hex(&here.sha256),
         });
-        HereLine {
-            determined: self.is_determined(),
-            means: self.means(),
-            focal_open: labels(self.open),
-            degenerate: self.is_degenerate(),
-            strength: here.rank.strength.name(),
-            error_log2: here.rank.strength.error_log2(),
-            rank: here.rank.value,
-            rank_required: here.required,
-            motions: here.motions(),
-            components: components.collect(),
-            components_strength: here.components.strength.name(),
-            special: special.collect(),
-            special_sets: here.special.len(),
-            centres_sha256: hex(&here.sha256),
+        if !self.open.is_empty() {
+            line["focal_open"] = labels(self.open).into();
         }
+        line
     }
 }
 
@@ -222,43 +224,4 @@ fn place(special: &Special, model: Model) -> &'static str {
         (Special::Collinear(_), _) => "on one line",
         (Special::Coplanar(_), _) => "in one plane",
     }
-}
-
-/// The answer at given cameras, in JSON.
-#[derive(Serialize)]
-pub(super) struct HereLine {
-    determined: bool,
-    means: &'static str,
-    /// The cameras whose unknown focal length no pair fixes.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    focal_open: Vec<String>,
-    /// Whether the rank is smaller than that of generic cameras.
-    degenerate: bool,
-    strength: &'static str,
-    error_log2: Option<i64>,
-    rank: usize,
-    rank_required: usize,
-    /// Dimension of the motions that are not trivial.
-    motions: usize,
-    components: Vec<PartLine>,
-    components_strength: &'static str,
-    /// The first hundred sets of cameras in special places.
-    special: Vec<SpecialLine>,
-    /// How many there are.
-    special_sets: usize,
-    centres_sha256: String,
-}
-
-#[derive(Serialize)]
-struct PartLine {
-    nodes: usize,
-    edges: usize,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    labels: Option<Vec<String>>,
-}
-
-#[derive(Serialize)]
-struct SpecialLine {
-    kind: &'static str,
-    labels: Vec<String>,
 }

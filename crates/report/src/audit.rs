@@ -1,33 +1,22 @@
 //! Floating point and claims of others beside the exact answer, in words and as JSON.
 
-use super::json::{GraphLine, write_line};
-use super::read::ReadLine;
-use super::{at_cameras, counted, size, text};
+use super::json::{GraphLine, joined, write_line};
+use super::{at_cameras, counted, head, text};
 use serde_json::json;
 use std::io::{self, Write};
-use std::path::PathBuf;
 use std::time::Duration;
 use viewcert::at_cameras::Here;
 use viewcert::certificate::hex;
 use viewcert::decide::Verdict;
 use viewcert::wording::printable;
-use viewcert_audit::at_cameras::FloatClaim;
-use viewcert_audit::claims::Ruling;
+use viewcert_audit::claims::{Claim, Ruling};
 use viewcert_audit::enclosure::{Enclosure, Matrix};
 use viewcert_audit::{Beside, FloatVerdict};
 use viewcert_formats::NamedGraph;
 
-/// The lines that say what graph it is and how it was read.
-///
-/// # Errors
-/// Those of the writer.
-pub fn head(out: &mut impl Write, input: &NamedGraph) -> io::Result<()> {
-    writeln!(out, "{}", printable(&input.name))?;
-    writeln!(out, "  read as     {}", input.read)?;
-    writeln!(out, "  graph       {}", size(&input.graph))?;
-    let mut notes = input.notes.iter();
-    notes.try_for_each(|note| writeln!(out, "  note        {note}"))
-}
+/// Why numbers of components differ.
+const DIFFER: &str = "the components differ: the published method takes pairs that always move as one for a component \
+                      (docs/theory.md, Example 6.2), and rounds";
 
 /// Both sides of one graph.
 #[derive(Clone, Debug)]
@@ -50,58 +39,57 @@ impl Audit<'_> {
         let Beside {
             misjudged, draws, ..
         } = self.float;
+        let draws = counted(draws, "draw");
         match self.float.components {
             _ if self.float.agrees => None,
             None => Some("floating point gave no number".into()),
             _ if misjudged > 0 => Some(format!(
-                "the smallest eigenvalue is on the wrong side of the tolerance at {misjudged} of {}",
-                counted(draws, "draw")
+                "the smallest eigenvalue is on the wrong side of the tolerance at {misjudged} of {draws}"
             )),
-            _ => Some(
-                "the components differ: the published method takes pairs that always move as one for a component \
-                 (docs/theory.md, Example 6.2), and rounds"
-                    .into(),
-            ),
+            _ => Some(DIFFER.into()),
         }
     }
 
-    /// Writes a few lines.
+    /// Writes a few lines, or one of JSON, where numbers that are none become `null`.
     ///
     /// # Errors
     /// Those of the writer.
-    pub fn write_text(&self, out: &mut impl Write) -> io::Result<()> {
+    pub fn write(&self, out: &mut impl Write, json: bool) -> io::Result<()> {
+        match json {
+            true => self.write_json(out),
+            false => self.write_text(out),
+        }
+    }
+
+    fn write_text(&self, out: &mut impl Write) -> io::Result<()> {
         let (exact, float, tolerance) = (self.exact, &self.float, self.tolerance);
         let outcome = &float.outcome;
         head(out, self.input)?;
+        let (value, strength) = (exact.value.name(), exact.value_claim().strength.name());
+        let (parts, time) = (exact.components.len(), self.exact_time.as_secs_f64());
         writeln!(
             out,
-            "  exact       {} ({}), components {}, {:.3} s",
-            exact.value.name(),
-            exact.value_claim().strength.name(),
-            exact.components.len(),
-            self.exact_time.as_secs_f64()
+            "  exact       {value} ({strength}), components {parts}, {time:.3} s"
         )?;
-        let components = float.components.map(|count| count.to_string());
+        let (value, time) = (outcome.verdict.name(), float.time.as_secs_f64());
+        let parts = float.components.map(|count| count.to_string());
+        let parts = parts.unwrap_or_else(|| "undecided".to_owned());
         writeln!(
             out,
-            "  float       {}, components {}, {:.3} s",
-            outcome.verdict.name(),
-            components.as_deref().unwrap_or("undecided"),
-            float.time.as_secs_f64()
+            "  float       {value}, components {parts}, {time:.3} s"
         )?;
-        write!(
+        let margin = match outcome.margin(tolerance) {
+            margin if margin.is_nan() => "no margin".to_owned(),
+            margin => format!("margin {margin:+.1} decades"),
+        };
+        let (sigma, eigenvalue) = (outcome.smallest, outcome.eigenvalue());
+        writeln!(
             out,
-            "  smallest    singular value {:.3e}, eigenvalue {:.3e}; tolerance {tolerance:e}",
-            outcome.smallest,
-            outcome.eigenvalue()
+            "  smallest    singular value {sigma:.3e}, eigenvalue {eigenvalue:.3e}; tolerance {tolerance:e}, {margin}"
         )?;
-        match outcome.margin(tolerance) {
-            margin if margin.is_nan() => writeln!(out, ", no margin")?,
-            margin => writeln!(out, ", margin {margin:+.1} decades")?,
-        }
         if float.draws > 1 {
-            let percent = 100.0 * float.misjudged as f64 / float.draws as f64;
             let (wrong, draws) = (float.misjudged, float.draws);
+            let percent = 100.0 * wrong as f64 / draws as f64;
             writeln!(
                 out,
                 "  draws       {wrong} of {draws} misjudged ({percent:.2} %)"
@@ -117,16 +105,12 @@ impl Audit<'_> {
         reason.try_for_each(|reason| writeln!(out, "  because     {reason}"))
     }
 
-    /// Writes one line of JSON; numbers that are none become `null`.
-    ///
-    /// # Errors
-    /// Those of the writer.
-    pub fn write_json(&self, out: &mut impl Write) -> io::Result<()> {
+    fn write_json(&self, out: &mut impl Write) -> io::Result<()> {
         let (exact, float) = (self.exact, &self.float);
         let outcome = &float.outcome;
         let line = json!({
             "graph": GraphLine::new(self.input, exact),
-            "read": ReadLine::from(&self.input.read),
+            "read": self.input.read,
             "notes": self.input.notes,
             "prime": exact.prime(),
             "exact": {
@@ -153,175 +137,125 @@ impl Audit<'_> {
     }
 }
 
-/// The ruling on one row.
-#[derive(Clone, Debug)]
-pub struct Ruled {
-    /// The row, from 1.
-    pub number: usize,
-    /// Its line in the table, from 1.
-    pub line: usize,
-    /// What was found.
-    pub ruling: Ruling,
-    /// The graph.
-    pub input: NamedGraph,
-    /// Its exact verdict.
-    pub exact: Verdict,
-    /// The certificate, where one was written.
-    pub certificate: Option<PathBuf>,
-}
-
-impl Ruled {
-    /// Writes one line.
-    ///
-    /// # Errors
-    /// Those of the writer.
-    pub fn write_text(&self, out: &mut impl Write) -> io::Result<()> {
-        let exact = &self.exact;
-        write!(
-            out,
-            "row {:4}  {:13}  {}: {} ({}), components {}, rank {}",
-            self.number,
-            word(&self.ruling),
-            printable(&self.input.name),
-            exact.value.name(),
-            exact.value_claim().strength.name(),
-            exact.components.len(),
-            exact.rank
-        )?;
-        because(out, &self.ruling)?;
-        let path = self
-            .certificate
-            .iter()
-            .map(|path| path.display().to_string());
-        let mut path = path.map(|path| printable(&path));
-        path.try_for_each(|path| writeln!(out, "          certificate {path}"))
-    }
-
-    /// Writes one line of JSON.
-    ///
-    /// # Errors
-    /// Those of the writer.
-    pub fn write_json(&self, out: &mut impl Write) -> io::Result<()> {
-        let exact = &self.exact;
-        let line = json!({
-            "row": self.number,
-            "line": self.line,
-            "ruling": self.ruling.said().0,
-            "reason": self.ruling.said().1,
-            "graph": GraphLine::new(&self.input, exact),
-            "read": ReadLine::from(&self.input.read),
-            "model": exact.model.name(),
-            "verdict": exact.value.name(),
-            "strength": exact.value_claim().strength.name(),
-            "components": exact.components.len(),
-            "rank": exact.rank,
-            "prime": exact.prime(),
-            "certificate": self.certificate.as_ref().map(|path| path.display().to_string()),
-        });
-        write_line(out, "ruling", Some(exact.seed), &line)
-    }
-}
-
-/// The name of a ruling; a refutation has to be seen.
-fn word(ruling: &Ruling) -> &'static str {
-    match ruling {
-        Ruling::Refuted(_) => "REFUTED",
-        other => other.said().0,
-    }
-}
-
-/// Ends a line with what speaks against a claim.
-fn because(out: &mut impl Write, ruling: &Ruling) -> io::Result<()> {
-    match ruling.said().1 {
-        "" => writeln!(out),
-        why => writeln!(out, "; {}", printable(why)),
-    }
-}
-
-/// What is so at given cameras, for one row of what floating point found there, or for none.
+/// What is so of a graph, or at cameras, and what that makes of a row.
 #[derive(Clone, Copy, Debug)]
-pub struct AtCameras<'a> {
+pub struct Ruled<'a> {
+    /// The row, with its number from 1, and the ruling on it; nothing where there is no table.
+    pub row: Option<(usize, &'a Claim, &'a Ruling)>,
     /// The graph.
     pub input: &'a NamedGraph,
-    /// What is so at the cameras.
-    pub here: &'a Here,
-    /// The singular value, where one is asked for.
-    pub sigma: Option<&'a (Matrix, Enclosure)>,
-    /// The row, with its number from 1, and the ruling on it.
-    pub ruled: Option<(usize, &'a FloatClaim, &'a Ruling)>,
+    /// What is so.
+    pub found: Found<'a>,
 }
 
-impl AtCameras<'_> {
-    /// Writes a line or two.
+/// What is so.
+#[derive(Clone, Copy, Debug)]
+pub enum Found<'a> {
+    /// Of the graph.
+    Generic(&'a Verdict),
+    /// At given cameras, with a singular value where one is asked for.
+    AtCameras(&'a Here, Option<&'a (Matrix, Enclosure)>),
+}
+
+impl Ruled<'_> {
+    /// Writes a line or two, or one of JSON.
     ///
     /// # Errors
     /// Those of the writer.
-    pub fn write_text(&self, out: &mut impl Write) -> io::Result<()> {
-        let (here, is_ruled) = (self.here, self.ruled.is_some());
-        match self.ruled {
-            Some((row, claim, ruling)) => {
-                let name = claim
-                    .name
-                    .as_ref()
-                    .map(|name| format!("{}: ", printable(name)));
-                let name = name.unwrap_or_default();
-                write!(out, "row {row:4}  {:13}  {name}", word(ruling))?;
-            }
-            None => write!(out, "  at cameras  ")?,
+    pub fn write(&self, out: &mut impl Write, json: bool) -> io::Result<()> {
+        match json {
+            true => self.write_json(out),
+            false => self.write_text(out),
         }
-        let strength = text::strength(here.rank.strength);
-        write!(
-            out,
-            "{} ({strength}), {}, rank {} of {}",
-            at_cameras::answer(here, &self.input.graph, None),
-            counted(here.components.value.len(), "component"),
-            here.rank.value,
-            here.required
-        )?;
-        because(
-            out,
-            self.ruled.map_or(&Ruling::Confirmed, |(.., ruling)| ruling),
-        )?;
-        let Some((matrix, found)) = self.sigma else {
-            return Ok(());
-        };
-        let ([least, most], name) = (found.decimals(), matrix.name());
-        let place = matrix.place(self.input.graph.nodes());
-        let behind = if is_ruled { "          " } else { "  " };
-        let what = format!("{name}, number {place} from below ({strength})");
-        writeln!(out, "{behind}sigma       {least} to {most}: {what}")
     }
 
-    /// Writes one line of JSON.
-    ///
-    /// # Errors
-    /// Those of the writer.
-    pub fn write_json(&self, out: &mut impl Write) -> io::Result<()> {
-        let here = self.here;
-        let sigma = self.sigma.map(|(matrix, found)| {
-            let [least, most] = found.decimals();
-            let place = matrix.place(self.input.graph.nodes());
-            json!({ "matrix": matrix.name(), "place": place, "least": least, "most": most })
-        });
+    fn write_text(&self, out: &mut impl Write) -> io::Result<()> {
+        let (graph, row) = (&self.input.graph, self.row);
+        let name = row.and_then(|(_, claim, _)| claim.name.as_deref());
+        let (name, is, strength, [parts, rank, required]) = match self.found {
+            Found::Generic(exact) => (
+                Some(&*self.input.name),
+                exact.value.name().to_owned(),
+                exact.value_claim().strength,
+                [exact.components.len(), exact.rank, exact.required],
+            ),
+            Found::AtCameras(here, _) => (
+                name,
+                at_cameras::answer(here, graph, None),
+                here.rank.strength,
+                [here.components.value.len(), here.rank.value, here.required],
+            ),
+        };
+        let ruling = row.map(|(_, _, ruling)| ruling.said());
+        match (row, ruling) {
+            (Some((row, ..)), Some((word, _))) => {
+                // A refutation has to be seen.
+                let word = word.replace("refuted", "REFUTED");
+                let name = name.map(|name| format!("{}: ", printable(name)));
+                write!(out, "row {row:4}  {word:13}  {}", name.unwrap_or_default())?;
+            }
+            _ => write!(out, "  at cameras  ")?,
+        }
+        let (strength, parts) = (text::strength(strength), counted(parts, "component"));
+        write!(out, "{is} ({strength}), {parts}, rank {rank} of {required}")?;
+        match ruling {
+            None | Some((_, "")) => writeln!(out)?,
+            Some((_, why)) => writeln!(out, "; {}", printable(why))?,
+        }
+        let Found::AtCameras(_, Some((matrix, found))) = self.found else {
+            return Ok(());
+        };
+        let ([least, most], place) = (found.decimals(), matrix.place(graph.nodes()));
+        let (behind, name) = (if row.is_some() { 10 } else { 2 }, matrix.name());
+        let what = format!("{name}, number {place} from below ({strength})");
+        writeln!(out, "{:behind$}sigma       {least} to {most}: {what}", "")
+    }
+
+    fn write_json(&self, out: &mut impl Write) -> io::Result<()> {
+        let row = self.row;
         let line = json!({
-            "row": self.ruled.map(|(row, ..)| row),
-            "line": self.ruled.map(|(_, claim, _)| claim.line),
-            "name": self.ruled.and_then(|(_, claim, _)| claim.name.as_deref()),
-            "ruling": self.ruled.map(|(.., ruling)| ruling.said().0),
-            "reason": self.ruled.map(|(.., ruling)| ruling.said().1),
+            "row": row.map(|(row, ..)| row),
+            "line": row.map(|(_, claim, _)| claim.line),
+            "name": row.and_then(|(_, claim, _)| claim.name.as_deref()),
+            "ruling": row.map(|(.., ruling)| ruling.said().0),
+            "reason": row.map(|(.., ruling)| ruling.said().1),
             "graph": GraphLine::of(self.input),
-            "read": ReadLine::from(&self.input.read),
-            "model": here.model.name(),
-            "verdict": if here.is_determined() { "determined" } else { "not-determined" },
-            "strength": here.rank.strength.name(),
-            "error_log2": here.rank.strength.error_log2(),
-            "rank": here.rank.value,
-            "rank_required": here.required,
-            "components": here.components.value.len(),
-            "sigma": sigma,
-            "centres_sha256": hex(&here.sha256),
+            "read": self.input.read,
             "notes": self.input.notes,
         });
-        write_line(out, "float_ruling", None, &line)
+        let (found, seed) = match self.found {
+            Found::Generic(exact) => {
+                let found = json!({
+                    "model": exact.model.name(),
+                    "verdict": exact.value.name(),
+                    "strength": exact.value_claim().strength.name(),
+                    "components": exact.components.len(),
+                    "rank": exact.rank,
+                    "rank_required": exact.required,
+                    "prime": exact.prime(),
+                });
+                (found, Some(exact.seed))
+            }
+            Found::AtCameras(here, sigma) => {
+                let sigma = sigma.map(|(matrix, found)| {
+                    let ([least, most], place) =
+                        (found.decimals(), matrix.place(self.input.graph.nodes()));
+                    json!({ "matrix": matrix.name(), "place": place, "least": least, "most": most })
+                });
+                let found = json!({
+                    "model": here.model.name(),
+                    "verdict": if here.is_determined() { "determined" } else { "not-determined" },
+                    "strength": here.rank.strength.name(),
+                    "error_log2": here.rank.strength.error_log2(),
+                    "components": here.components.value.len(),
+                    "rank": here.rank.value,
+                    "rank_required": here.required,
+                    "sigma": sigma,
+                    "centres_sha256": hex(&here.sha256),
+                });
+                (found, None)
+            }
+        };
+        write_line(out, "ruling", seed, &joined(line, &found))
     }
 }

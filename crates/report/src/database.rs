@@ -1,94 +1,11 @@
-//! A database of matches on a few lines, and the same in JSON.
+//! A database of matches on a few lines.
 
 use super::counted;
-use serde::Serialize;
-use std::borrow::Cow;
 use std::io::{self, Write};
 use viewcert_formats::colmap::{Bin, DatabaseFacts, Pipeline, config_name};
 
 /// How many connected parts are shown with their sizes.
 const SHOWN: usize = 8;
-
-/// The summary as `verify --json` prints it, in the member `database`.
-#[derive(Serialize)]
-pub struct DatabaseLine {
-    table: Cow<'static, str>,
-    pipeline: &'static str,
-    min_inliers: u32,
-    images: usize,
-    images_without_pair: usize,
-    pairs: usize,
-    pairs_used: usize,
-    configs: Vec<ConfigLine>,
-    inliers: Vec<BinLine>,
-    rigs: usize,
-    version: Option<u32>,
-    /// Absent if there are none.
-    #[serde(skip_serializing_if = "is_zero")]
-    positions: usize,
-    #[serde(skip_serializing_if = "is_zero")]
-    focal_guessed: usize,
-    #[serde(skip_serializing_if = "is_zero")]
-    focal_shared: usize,
-    #[serde(skip_serializing_if = "is_zero")]
-    images_without_keypoints: usize,
-    connected: Vec<usize>,
-}
-
-#[derive(Serialize)]
-struct ConfigLine {
-    config: i64,
-    name: &'static str,
-    pairs: usize,
-    used: usize,
-}
-
-#[derive(Serialize)]
-struct BinLine {
-    from: u32,
-    /// Absent in the last bin.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    to: Option<u32>,
-    pairs: usize,
-}
-
-fn is_zero(count: &usize) -> bool {
-    *count == 0
-}
-
-impl From<&DatabaseFacts> for DatabaseLine {
-    fn from(facts: &DatabaseFacts) -> Self {
-        let configs = facts.configs.iter().map(|count| ConfigLine {
-            config: count.config,
-            name: config_name(count.config),
-            pairs: count.pairs,
-            used: count.used,
-        });
-        let inliers = facts.inliers.iter().map(|bin| BinLine {
-            from: bin.from,
-            to: bin.to,
-            pairs: bin.pairs,
-        });
-        Self {
-            table: facts.table.clone(),
-            pipeline: facts.pipeline.name(),
-            min_inliers: facts.min_inliers,
-            images: facts.images,
-            images_without_pair: facts.images_without_pair,
-            pairs: facts.pairs,
-            pairs_used: facts.pairs_used,
-            configs: configs.collect(),
-            inliers: inliers.collect(),
-            rigs: facts.rigs,
-            version: facts.version,
-            positions: facts.positions,
-            focal_guessed: facts.focal_guessed,
-            focal_shared: facts.focal_shared,
-            images_without_keypoints: facts.images_without_keypoints,
-            connected: facts.connected.clone(),
-        }
-    }
-}
 
 /// Writes the summary.
 ///

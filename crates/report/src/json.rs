@@ -1,21 +1,20 @@
 //! One JSON object a line.
 
-use super::database::DatabaseLine;
-use super::read::ReadLine;
 use super::text::{self, several};
 use super::tracks;
 use super::tracks::TrackLine;
 use super::{Report, WrittenProof};
 use crate::assumptions::{BaseLines, Planar, Scope};
-use crate::at_cameras::HereLine;
 use crate::intrinsics::IntrinsicsLine;
 use crate::own_frame::OwnFrameLine;
 use serde::Serialize;
+use serde_json::{Value, to_value};
 use std::io::{self, Write};
 use viewcert::certificate::hex;
 use viewcert::decide::{Component, SolutionCount, Verdict};
 use viewcert_advice::Advice;
-use viewcert_formats::NamedGraph;
+use viewcert_formats::colmap::DatabaseFacts;
+use viewcert_formats::{NamedGraph, ReadAs};
 
 /// Which program wrote a line.
 #[derive(Serialize)]
@@ -65,18 +64,34 @@ pub fn write_line(
     out.write_all(b"\n")
 }
 
+/// The members of an object that are there.
+pub(super) fn present(mut object: Value) -> Value {
+    if let Value::Object(members) = &mut object {
+        members.retain(|_, member| !member.is_null());
+    }
+    object
+}
+
+/// The members of an object, and those of another one.
+pub(super) fn joined(mut object: Value, more: &impl Serialize) -> Value {
+    if let (Value::Object(members), Ok(Value::Object(more))) = (&mut object, to_value(more)) {
+        members.extend(more);
+    }
+    object
+}
+
 #[derive(Serialize)]
 struct Line<'a> {
     graph: GraphLine<'a>,
     /// How many known parts there are; left out if there are none.
     #[serde(skip_serializing_if = "Option::is_none")]
     parts: Option<usize>,
-    read: ReadLine<'a>,
+    read: &'a ReadAs,
     notes: &'a [String],
     #[serde(skip_serializing_if = "Option::is_none")]
-    database: Option<DatabaseLine>,
+    database: Option<&'a DatabaseFacts>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    tracks: Option<TrackLine>,
+    tracks: Option<TrackLine<'a>>,
     model: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     displacements: Option<DisplacementLine>,
@@ -96,7 +111,7 @@ struct Line<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     intrinsics: Option<&'a IntrinsicsLine>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    at_cameras: Option<HereLine>,
+    at_cameras: Option<Value>,
     mode: &'static str,
     seconds: f64,
     #[serde(flatten)]
@@ -314,13 +329,13 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
     let line = Line {
         graph: GraphLine::new(input, verdict),
         parts: parts(verdict),
-        read: ReadLine::from(&input.read),
+        read: &input.read,
         notes: &input.notes,
-        database: input.database.as_deref().map(DatabaseLine::from),
+        database: input.database.as_deref(),
         tracks: input
             .cameras
             .zip(input.tracks.as_ref())
-            .map(|(cameras, facts)| TrackLine::new(cameras, facts)),
+            .map(|(cameras, facts)| TrackLine { cameras, facts }),
         model: verdict.model.name(),
         displacements: DisplacementLine::new(verdict),
         own_frame: report.scope.own_frame(),

@@ -1,12 +1,11 @@
 //! The name of a small graph and what is counted of it, for people and for programs.
 
+use super::head;
 use super::json::{GraphLine, write_line};
-use super::read::ReadLine;
-use super::size_of;
-use serde::Serialize;
+use crate::shown::row;
+use serde_json::json;
 use std::io::{self, Write};
 use viewcert::graph::graph6;
-use viewcert::wording::printable;
 use viewcert_catalog::invariants::Invariants;
 use viewcert_catalog::label::{Label, greatest};
 use viewcert_formats::NamedGraph;
@@ -17,19 +16,6 @@ pub struct LabelReport<'a> {
     label: Label,
     graph6: String,
     invariants: Invariants,
-}
-
-#[derive(Serialize)]
-struct Line<'a> {
-    graph: GraphLine<'a>,
-    read: ReadLine<'a>,
-    notes: &'a [String],
-    label: String,
-    graph6: &'a str,
-    degrees: &'a [usize],
-    girth: Option<usize>,
-    automorphisms: u64,
-    triangles: usize,
 }
 
 impl<'a> LabelReport<'a> {
@@ -49,22 +35,16 @@ impl<'a> LabelReport<'a> {
     /// Those of the writer.
     pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
         let (input, found) = (self.input, &self.invariants);
-        writeln!(out, "{}", printable(&input.name))?;
-        writeln!(out, "  read as     {}", input.read)?;
-        writeln!(out, "  graph       {}", size_of(input))?;
-        for note in &input.notes {
-            writeln!(out, "  note        {note}")?;
-        }
+        head(out, input)?;
         let degrees: Vec<String> = found.degrees.iter().map(usize::to_string).collect();
-        let girth = found
-            .girth
-            .map_or("no cycle".to_owned(), |girth| girth.to_string());
-        writeln!(out, "  label       {}", self.label)?;
-        writeln!(out, "  graph6      {}", self.graph6)?;
-        writeln!(out, "  degrees     {}", degrees.join(","))?;
-        writeln!(out, "  girth       {girth}")?;
+        let girth = found.girth.map(|girth| girth.to_string());
+        let girth = girth.unwrap_or_else(|| "no cycle".to_owned());
+        row(out, "label", &self.label)?;
+        row(out, "graph6", &self.graph6)?;
+        row(out, "degrees", degrees.join(","))?;
+        row(out, "girth", girth)?;
         writeln!(out, "  symmetry    automorphisms: {}", found.group_order)?;
-        writeln!(out, "  triangles   {}", found.triangles)
+        row(out, "triangles", found.triangles)
     }
 
     /// Writes one JSON object.
@@ -72,17 +52,18 @@ impl<'a> LabelReport<'a> {
     /// # Errors
     /// Those of the writer.
     pub fn json(&self, out: &mut impl Write) -> io::Result<()> {
-        let line = Line {
-            graph: GraphLine::of(self.input),
-            read: ReadLine::from(&self.input.read),
-            notes: &self.input.notes,
-            label: self.label.to_string(),
-            graph6: &self.graph6,
-            degrees: &self.invariants.degrees,
-            girth: self.invariants.girth,
-            automorphisms: self.invariants.group_order,
-            triangles: self.invariants.triangles,
-        };
+        let (input, found) = (self.input, &self.invariants);
+        let line = json!({
+            "graph": GraphLine::of(input),
+            "read": input.read,
+            "notes": input.notes,
+            "label": self.label.to_string(),
+            "graph6": self.graph6,
+            "degrees": found.degrees,
+            "girth": found.girth,
+            "automorphisms": found.group_order,
+            "triangles": found.triangles,
+        });
         write_line(out, "label", None, &line)
     }
 }

@@ -27,7 +27,6 @@ pub mod own_frame;
 mod page;
 mod part_names;
 pub mod priors;
-pub mod read;
 mod redundancy;
 pub mod scene;
 pub mod screen;
@@ -50,6 +49,7 @@ use viewcert::proof::Proof;
 use viewcert_advice::Advice;
 use viewcert_formats::NamedGraph;
 
+pub use shown::head;
 pub use viewcert::wording::counted;
 
 /// A graph's size: "5 cameras, 1 pair".

@@ -1,17 +1,15 @@
 //! Lists of images and what they determine, for people and for programs.
 
 use super::json::{GraphLine, write_line};
-use super::read::ReadLine;
-use super::{condition, counted, size_of, text};
+use super::{condition, counted, head, text};
 use crate::shown::{SHOWN, rest, some, some_names};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::time::Duration;
 use viewcert::Model;
 use viewcert::decide::Options;
-use viewcert::wording::printable;
 use viewcert_advice::lists::{Fixed, Found, Lists};
-use viewcert_formats::NamedGraph;
+use viewcert_formats::{NamedGraph, ReadAs};
 
 /// Lists, and what was found about them.
 pub struct ListReport<'a> {
@@ -32,12 +30,7 @@ impl ListReport<'_> {
     /// Those of the writer.
     pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
         let lists = self.lists;
-        writeln!(out, "{}", printable(&self.input.name))?;
-        writeln!(out, "  read as     {}", self.input.read)?;
-        writeln!(out, "  graph       {}", size_of(self.input))?;
-        for note in &self.input.notes {
-            writeln!(out, "  note        {note}")?;
-        }
+        head(out, self.input)?;
         let by = match self.by {
             "tracks" => {
                 "each list by the tracks that its own pairs make, and by what both mappers of COLMAP 4.2 \
@@ -116,7 +109,7 @@ impl ListReport<'_> {
     pub fn write_json(&self, out: &mut impl Write) -> io::Result<()> {
         let line = Line {
             graph: GraphLine::of(self.input),
-            read: ReadLine::from(&self.input.read),
+            read: &self.input.read,
             notes: &self.input.notes,
             by: self.by,
             condition: condition::of_photographs(self.input, Model::Calibrated)
@@ -150,7 +143,7 @@ fn found(list: &Found) -> String {
 #[derive(Serialize)]
 struct Line<'a> {
     graph: GraphLine<'a>,
-    read: ReadLine<'a>,
+    read: &'a ReadAs,
     notes: &'a [String],
     by: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]

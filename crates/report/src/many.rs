@@ -1,23 +1,12 @@
-//! Many graphs: a row each and a summary, in the form of the paper's Table 3.
+//! Many graphs as comma-separated values, a row each.
 
-use super::text::{seconds, strength};
-use super::{Report, counted, own_frame};
+use super::text::strength;
+use super::{Report, own_frame};
 use serde_json::json;
 use std::io::{self, Write};
-use std::path::PathBuf;
-use std::time::Duration;
-use viewcert::decide::{Value, Verdict};
+use viewcert::decide::Verdict;
 use viewcert::wording::printable;
 use viewcert_formats::{ReadAs, csv};
-
-/// How a table is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
-    /// In columns, with a summary below.
-    Text,
-    /// Comma-separated values behind a head.
-    Csv,
-}
 
 /// The columns of comma-separated values.
 const COLUMNS: [&str; 12] = [
@@ -38,53 +27,18 @@ const COLUMNS: [&str; 12] = [
 /// A table that is written row by row.
 #[derive(Debug)]
 pub struct Table {
-    format: Format,
-    /// Width of the names.
-    width: usize,
     /// Whether it says how many solutions there are.
     counted: bool,
-    graphs: usize,
-    failed: usize,
-    /// Of each verdict how many, in the order of [`Value::ALL`].
-    counts: [usize; 3],
-    components: usize,
-    time: Duration,
 }
 
 impl Table {
-    /// Begins a table of graphs from some files.
+    /// Begins a table.
     ///
     /// # Errors
     /// Those of the writer.
-    pub fn begin(
-        out: &mut impl Write,
-        format: Format,
-        files: &[PathBuf],
-        counted: bool,
-    ) -> io::Result<Self> {
-        let names = files
-            .iter()
-            .map(|path| path.to_string_lossy().chars().count());
-        let table = Self {
-            format,
-            width: names.max().unwrap_or(0).max(12),
-            counted,
-            graphs: 0,
-            failed: 0,
-            counts: [0; 3],
-            components: 0,
-            time: Duration::ZERO,
-        };
-        let width = table.width;
-        match format {
-            Format::Text => writeln!(
-                out,
-                "{:width$}  cameras  density    pairs  components  {}verdict              strength  time",
-                "graph",
-                if counted { "solutions  " } else { "" },
-            )?,
-            Format::Csv => table.comma_separated(out, COLUMNS)?,
-        }
+    pub fn begin(out: &mut impl Write, counted: bool) -> io::Result<Self> {
+        let table = Self { counted };
+        table.write(out, COLUMNS)?;
         Ok(table)
     }
 
@@ -92,117 +46,53 @@ impl Table {
     ///
     /// # Errors
     /// Those of the writer.
-    pub fn row(&mut self, out: &mut impl Write, report: &Report) -> io::Result<()> {
+    pub fn row(&self, out: &mut impl Write, report: &Report) -> io::Result<()> {
         let (graph, verdict) = (&report.input.graph, report.verdict);
         let (nodes, edges) = (graph.nodes(), graph.edges().len());
         let claim = own_frame::claim(report.input, verdict);
-        let words = claim.map_or("open", |claim| claim.value.name());
-        let components = verdict.components.len();
         let strength = claim.map_or("none".to_owned(), |claim| strength(claim.strength));
-        let percent = density(nodes, edges);
-        let solutions = solutions(verdict);
-        let name = &*printable(&report.input.name);
-        let width = self.width;
-        match self.format {
-            Format::Text => {
-                let time = seconds(report.time.as_micros());
-                write!(
-                    out,
-                    "{name:width$}  {nodes:>7}  {percent:>5} %  {edges:>7}  {components:>10}  "
-                )?;
-                if self.counted {
-                    write!(out, "{solutions:>9}  ")?;
-                }
-                writeln!(out, "{words:<19}  {strength:<8}  {time}")?;
-            }
-            Format::Csv => {
-                let seconds = format!("{:.4}", report.time.as_secs_f64());
-                let [nodes, percent, edges, components] =
-                    [nodes, percent, edges, components].map(|number| number.to_string());
-                self.comma_separated(
-                    out,
-                    [
-                        name,
-                        &nodes,
-                        &percent,
-                        &edges,
-                        words,
-                        &strength,
-                        &components,
-                        &seconds,
-                        &solutions,
-                        verdict.model.name(),
-                        &options(&report.input.read),
-                        "",
-                    ],
-                )?;
-            }
-        }
-        self.graphs += 1;
-        self.components += components;
-        self.time += report.time;
-        for (count, known) in self.counts.iter_mut().zip(Value::ALL) {
-            *count += usize::from(claim.is_some_and(|claim| claim.value == known));
-        }
-        Ok(())
+        let numbers = [
+            nodes,
+            density(nodes, edges),
+            edges,
+            verdict.components.len(),
+        ];
+        let [nodes, percent, edges, components] = numbers.map(|number| number.to_string());
+        let cells = [
+            &*printable(&report.input.name),
+            &nodes,
+            &percent,
+            &edges,
+            claim.map_or("open", |claim| claim.value.name()),
+            &strength,
+            &components,
+            &format!("{:.4}", report.time.as_secs_f64()),
+            &solutions(verdict),
+            verdict.model.name(),
+            &options(&report.input.read),
+            "",
+        ];
+        self.write(out, cells)
     }
 
     /// Writes the row of a graph that has no answer, and why.
     ///
     /// # Errors
     /// Those of the writer.
-    pub fn failed(&mut self, out: &mut impl Write, name: &str, why: &str) -> io::Result<()> {
-        self.failed += 1;
-        let width = self.width;
-        let (name, why) = (&*printable(name), &*printable(why));
-        match self.format {
-            Format::Text => writeln!(out, "{name:width$}  error: {why}"),
-            Format::Csv => {
-                let mut cells = [""; COLUMNS.len()];
-                (cells[0], cells[COLUMNS.len() - 1]) = (name, why);
-                self.comma_separated(out, cells)
-            }
-        }
+    pub fn failed(&self, out: &mut impl Write, name: &str, why: &str) -> io::Result<()> {
+        let mut cells = [""; COLUMNS.len()];
+        let (name, why) = (printable(name), printable(why));
+        (cells[0], cells[COLUMNS.len() - 1]) = (&name, &why);
+        self.write(out, cells)
     }
 
     /// Writes cells, but that of solutions only if they are counted.
-    fn comma_separated(
-        &self,
-        out: &mut impl Write,
-        cells: [&str; COLUMNS.len()],
-    ) -> io::Result<()> {
+    fn write(&self, out: &mut impl Write, cells: [&str; COLUMNS.len()]) -> io::Result<()> {
         let shown = COLUMNS.iter().zip(cells);
         let shown = shown.filter(|(head, _)| self.counted || **head != "solutions");
         let mut row = csv::Writer::commas(out);
         row.row(shown.map(|(_, cell)| of_no_formula(cell)))?;
         row.finish()
-    }
-
-    /// Writes the summary: not behind comma-separated values, where it would be a row.
-    ///
-    /// # Errors
-    /// Those of the writer.
-    pub fn end(&self, out: &mut impl Write) -> io::Result<()> {
-        let some = self.counts.iter().zip(Value::ALL);
-        let some: Vec<String> = some
-            .filter(|(count, _)| **count > 0)
-            .map(|(count, value)| format!("{count} {}", value.name()))
-            .collect();
-        let failed = match self.failed {
-            0 => String::new(),
-            failed => format!("; {failed} without an answer"),
-        };
-        let summary = format!(
-            "{}: {}; {}, {}{failed}",
-            counted(self.graphs, "graph"),
-            some.join(", "),
-            counted(self.components, "component"),
-            seconds(self.time.as_micros())
-        );
-        match self.format {
-            Format::Text if self.graphs > 0 => writeln!(out, "{summary}"),
-            _ => Ok(()),
-        }
     }
 }
 

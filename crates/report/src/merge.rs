@@ -1,7 +1,6 @@
 //! Two models and what they share, for people and for programs.
 
 use super::json::{GraphLine, write_line};
-use super::read::ReadLine;
 use super::{condition, counted, text};
 use crate::shown::{SHOWN, rest, some_names};
 use serde::Serialize;
@@ -12,7 +11,7 @@ use viewcert::wording::printable;
 use viewcert_advice::export::shell;
 use viewcert_advice::merge::{By, MERGER, Merge, Merger};
 use viewcert_advice::misfit::{Misfit, OFF, TURNED};
-use viewcert_formats::NamedGraph;
+use viewcert_formats::{NamedGraph, ReadAs};
 
 /// What an answer by tracks rests on.
 const BY_TRACKS: &str =
@@ -186,7 +185,7 @@ impl MergeReport<'_> {
         let line = Line {
             models: &self.models,
             graph: self.tracks.map(GraphLine::of),
-            read: self.tracks.map(|input| ReadLine::from(&input.read)),
+            read: self.tracks.map(|input| &input.read),
             notes: self.tracks.map_or(&[][..], |input| &input.notes),
             merge: self.merge,
             condition: self.condition(),
@@ -257,7 +256,7 @@ struct Line<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     graph: Option<GraphLine<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    read: Option<ReadLine<'a>>,
+    read: Option<&'a ReadAs>,
     notes: &'a [String],
     #[serde(flatten)]
     merge: &'a Merge,

@@ -1,21 +1,19 @@
 //! Every camera model side by side, for people and for programs.
 
 use super::json::{AnswerLine, GraphLine, parts, write_line};
-use super::read::ReadLine;
-use super::{size_with_parts, text};
+use super::{counted, head, text};
 use crate::assumptions::Scope;
+use crate::shown::{SHOWN, row, several, some_names};
 use serde::Serialize;
 use std::collections::{BTreeMap, HashMap};
 use std::io::{self, Write};
 use viewcert::decide::{Strength, Verdict};
 use viewcert::geometry::model::Model;
 use viewcert::wording::printable;
-use viewcert_formats::NamedGraph;
-
-/// How many changes between two models people are shown.
-const SHOWN: usize = 8;
+use viewcert_formats::{NamedGraph, ReadAs};
 
 /// Components of one model that are one in the next.
+#[derive(Serialize)]
 pub struct Change {
     from: &'static str,
     to: &'static str,
@@ -25,7 +23,7 @@ pub struct Change {
     /// ... the components of the model `from` that it consists of, from 1 on...
     joins: Vec<usize>,
     /// ... and the cameras at which these touch: those that lie in several of them.
-    at: Vec<u32>,
+    at: Vec<String>,
 }
 
 /// The models, each of which determines no more than the next one: affine solvable implies finite
@@ -33,9 +31,9 @@ pub struct Change {
 pub const ORDER: [Model; 3] = [Model::Affine, Model::Projective, Model::Calibrated];
 
 /// What changes from each verdict to the next; they are in this order of models.
-pub fn all_changes(verdicts: &[(Verdict, Scope)]) -> Vec<Change> {
+pub fn all_changes(input: &NamedGraph, verdicts: &[(Verdict, Scope)]) -> Vec<Change> {
     let next = verdicts.windows(2);
-    next.flat_map(|pair| changes(&pair[0].0, &pair[1].0))
+    next.flat_map(|pair| changes(input, &pair[0].0, &pair[1].0))
         .collect()
 }
 
@@ -44,7 +42,7 @@ pub fn all_changes(verdicts: &[(Verdict, Scope)]) -> Vec<Change> {
 /// The components of the first refine those of the second: a part that is determined in the first
 /// is in the second, so it lies in a component there. Two components of a graph share at most one
 /// node, so two nodes of a part tell in which. O(n + sizes of components).
-fn changes(from: &Verdict, to: &Verdict) -> Vec<Change> {
+fn changes(input: &NamedGraph, from: &Verdict, to: &Verdict) -> Vec<Change> {
     let mut of_node: HashMap<u32, Vec<usize>> = HashMap::new();
     for (k, component) in to.components.iter().enumerate() {
         for v in component.nodes() {
@@ -73,20 +71,12 @@ fn changes(from: &Verdict, to: &Verdict) -> Vec<Change> {
                 component: component + 1,
                 cameras: to.components[component].node_count(),
                 joins: parts.iter().map(|(k, _)| k + 1).collect(),
-                at: shared.map(|(v, _)| v).collect(),
+                at: shared
+                    .map(|(v, _)| input.labels.label(v).into_owned())
+                    .collect(),
             }
         })
         .collect()
-}
-
-/// The first few of a list, and how many more there are.
-fn first<T: ToString>(items: impl ExactSizeIterator<Item = T>) -> String {
-    let count = items.len();
-    let mut words: Vec<String> = items.take(SHOWN).map(|item| item.to_string()).collect();
-    if count > SHOWN {
-        words.push(format!("and {} more", count - SHOWN));
-    }
-    words.join(", ")
 }
 
 /// Writes a line a model, and what changes between them.
@@ -99,20 +89,10 @@ pub fn text(
     verdicts: &[(Verdict, Scope)],
     changes: &[Change],
 ) -> io::Result<()> {
-    writeln!(out, "{}", printable(&input.name))?;
-    writeln!(out, "  read as     {}", input.read)?;
-    writeln!(
-        out,
-        "  graph       {}",
-        size_with_parts(input, &verdicts[0].0)
-    )?;
-    for note in &input.notes {
-        writeln!(out, "  note        {note}")?;
-    }
+    head(out, input)?;
     for (verdict, scope) in verdicts {
         let (rank, required) = (verdict.rank, verdict.required);
-        let components = super::counted(verdict.components.len(), "component");
-        let answer = verdict.value.name();
+        let components = counted(verdict.components.len(), "component");
         let claims = [
             verdict.value_claim().strength,
             verdict.rank_claim().strength,
@@ -121,29 +101,29 @@ pub fn text(
         let strength = text::strength(Strength::all(claims));
         let condition = text::condition(input, verdict, scope);
         let condition = condition.map_or_else(String::new, |words| format!(" {words}"));
-        writeln!(
-            out,
-            "  {:<12}{answer}{condition}, rank {rank} of {required}, {components} ({strength})",
-            verdict.model.name()
-        )?;
+        let answer = verdict.value.name();
+        let words =
+            format!("{answer}{condition}, rank {rank} of {required}, {components} ({strength})");
+        row(out, verdict.model.name(), words)?;
     }
     for change in changes.iter().take(SHOWN) {
-        let at = change.at.iter().map(|&v| input.labels.display(v));
-        writeln!(
-            out,
-            "  change      {} component {} ({}) joins the {} components {} at {}",
-            change.to,
-            change.component,
-            super::counted(change.cameras, "camera"),
-            change.from,
-            first(change.joins.iter()),
-            first(at)
-        )?;
+        let Change {
+            from,
+            to,
+            component,
+            ..
+        } = change;
+        let cameras = counted(change.cameras, "camera");
+        let (joins, at) = (several(&change.joins, ", "), some_names(&change.at));
+        let words = format!(
+            "{to} component {component} ({cameras}) joins the {from} components {joins} at {at}"
+        );
+        row(out, "change", printable(&words))?;
     }
-    if changes.len() > SHOWN {
-        writeln!(out, "  change      and {} more", changes.len() - SHOWN)?;
+    match changes.len().saturating_sub(SHOWN) {
+        0 => Ok(()),
+        more => row(out, "change", format_args!("and {more} more")),
     }
-    Ok(())
 }
 
 #[derive(Serialize)]
@@ -151,10 +131,10 @@ struct Line<'a> {
     graph: GraphLine<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
     parts: Option<usize>,
-    read: ReadLine<'a>,
+    read: &'a ReadAs,
     notes: &'a [String],
     models: Vec<ModelLine>,
-    changes: Vec<ChangeLine>,
+    changes: &'a [Change],
 }
 
 #[derive(Serialize)]
@@ -162,25 +142,6 @@ struct ModelLine {
     model: &'static str,
     #[serde(flatten)]
     answer: AnswerLine,
-}
-
-impl ModelLine {
-    fn new(input: &NamedGraph, verdict: &Verdict, scope: &Scope) -> Self {
-        Self {
-            model: verdict.model.name(),
-            answer: AnswerLine::new(input, verdict, scope, false),
-        }
-    }
-}
-
-#[derive(Serialize)]
-struct ChangeLine {
-    from: &'static str,
-    to: &'static str,
-    component: usize,
-    cameras: usize,
-    joins: Vec<usize>,
-    at: Vec<String>,
 }
 
 /// Writes everything as one line.
@@ -193,28 +154,17 @@ pub fn json(
     verdicts: &[(Verdict, Scope)],
     changes: &[Change],
 ) -> io::Result<()> {
-    let changes = changes.iter().map(|change| ChangeLine {
-        from: change.from,
-        to: change.to,
-        component: change.component,
-        cameras: change.cameras,
-        joins: change.joins.clone(),
-        at: change
-            .at
-            .iter()
-            .map(|&v| input.labels.label(v).into_owned())
-            .collect(),
-    });
+    let model = |(verdict, scope): &(Verdict, Scope)| ModelLine {
+        model: verdict.model.name(),
+        answer: AnswerLine::new(input, verdict, scope, false),
+    };
     let line = Line {
         graph: GraphLine::new(input, &verdicts[0].0),
         parts: parts(&verdicts[0].0),
-        read: ReadLine::from(&input.read),
+        read: &input.read,
         notes: &input.notes,
-        models: verdicts
-            .iter()
-            .map(|(verdict, scope)| ModelLine::new(input, verdict, scope))
-            .collect(),
-        changes: changes.collect(),
+        models: verdicts.iter().map(model).collect(),
+        changes,
     };
     write_line(out, "models", Some(verdicts[0].0.seed), &line)
 }

@@ -3,20 +3,17 @@
 //! In: reports about the graphs of an input. Out: whether they promise all images, what makes that doubtful, and
 //! their verdicts side by side (docs/reconstruction.md, 'Overview'): no more than theory 4 and 12 prove.
 
-use super::database::DatabaseLine;
-use super::json::{AnswerLine, GraphLine, write_line};
-use super::read::ReadLine;
+use super::json::{AnswerLine, GraphLine, joined, present, write_line};
 use super::tracks::TrackLine;
 use super::{
     Report, bottlenecks, condition, counted, database, mappers, part_names, size_of, text, tracks,
 };
 use crate::advice::{joints as write_joints, photograph, suggestions as write_suggestions};
-use crate::assumptions::BaseLines;
 use crate::contradictions::Contradicted;
 use crate::intrinsics::IntrinsicsLine;
 use crate::shown::several;
 use serde::Serialize;
-use serde_json::Value;
+use serde_json::json;
 use std::cell::OnceCell;
 use std::collections::HashMap;
 use std::io::{self, Write};
@@ -341,7 +338,7 @@ impl Overview<'_> {
                 .to_owned()
         });
         let off = self.contradictions.as_ref();
-        let off = off.and_then(Contradicted::doubt).into_iter();
+        let off = off.and_then(|found| found.report().doubt()).into_iter();
         let refuting = off
             .chain(base_lines)
             .chain(guessed)
@@ -574,130 +571,61 @@ impl Overview<'_> {
     pub fn write_json(&self, out: &mut impl Write) -> io::Result<()> {
         let pairs = self.pairs.as_ref().map(|[projective, calibrated]| {
             let graph = &projective.input.graph;
-            PairLine {
-                images: graph.nodes(),
-                images_with_pair: self.wanted.count,
-                pairs: graph.edges().len(),
-                projective: AnswerLine::from(projective),
-                calibrated: AnswerLine::from(calibrated),
-            }
+            json!({
+                "images": graph.nodes(),
+                "images_with_pair": self.wanted.count,
+                "pairs": graph.edges().len(),
+                "projective": AnswerLine::from(projective),
+                "calibrated": AnswerLine::from(calibrated),
+            })
         });
         let tracks = self.tracks.as_ref().and_then(|report| {
             let (cameras, facts) = report.input.cameras.zip(report.input.tracks.as_ref())?;
-            Some(PositionLine {
-                facts: TrackLine::new(cameras, facts),
-                positions: AnswerLine::from(report),
-                base_lines: report.scope.base_lines(),
-            })
+            let positions = AnswerLine::from(report);
+            let positions =
+                present(json!({ "positions": positions, "base_lines": report.scope.base_lines() }));
+            Some(joined(positions, &TrackLine { cameras, facts }))
         });
-        let database = self.pairs.as_ref().and_then(|[report, _]| {
-            let facts = report.input.database.as_deref()?;
-            Some(DatabaseLine::from(facts))
-        });
-        let decided = self.tracks.as_ref();
-        let decided = decided.or_else(|| self.pairs.as_ref().map(|[_, calibrated]| calibrated));
-        let line = Line {
-            graph: decided.map(|report| GraphLine::new(report.input, report.verdict)),
-            read: ReadLine::from(self.read),
-            notes: &self.notes,
-            database,
-            pairs,
-            intrinsics: self
-                .intrinsics
-                .as_ref()
-                .and_then(|found| found.as_ref().ok()),
-            tracks,
-            no_tracks: self.no_tracks,
-            joints: self.joints,
-            determined: self.determined(),
-            condition: self.condition(),
-            determined_by: if self.tracks.is_some() {
-                "tracks"
-            } else {
-                "pairs"
-            },
-            images: self.wanted.count,
-            of: self.wanted.of,
-            parts: match (self.parts(), self.decisive()) {
-                (Some(parts), Some(report)) => part_names::parts(report.input, &parts.images),
-                _ => Vec::new(),
-            },
-            in_no_part: self.named(&self.in_no_part()),
-            without_base_line: &self.without_base_line,
-            contradictions: self.contradictions.as_ref().map(Contradicted::line),
-            narrow: &self.narrow,
-            mappers: self.mappers.as_ref().filter(|_| self.no_model().is_none()),
-            no_model: self.no_model(),
-            do_next: &self.next.commands,
-            by_hand: self.next.by_hand.as_deref(),
-            expect: &self.next.expect,
-            seconds: self.time.as_secs_f64(),
+        let parts = match (self.parts(), self.decisive()) {
+            (Some(parts), Some(report)) => part_names::parts(report.input, &parts.images),
+            _ => Vec::new(),
         };
+        let split = Some(&self.without_base_line).filter(|split| !split.is_empty());
+        let off = self
+            .contradictions
+            .as_ref()
+            .map(|found| found.report().line());
+        let decided = self.decisive();
+        let line = present(json!({
+            // The graph that determines: of tracks, if there are any, or else of pairs.
+            "graph": decided.map(|report| GraphLine::new(report.input, report.verdict)),
+            "read": self.read,
+            "notes": self.notes,
+            "database": self.facts(),
+            "pairs": pairs,
+            "intrinsics": self.intrinsics.as_ref().and_then(|found| found.as_ref().ok()),
+            "tracks": tracks,
+            "no_tracks": self.no_tracks,
+            "determined": self.determined(),
+            "condition": self.condition(),
+            "determined_by": if self.tracks.is_some() { "tracks" } else { "pairs" },
+            "images": self.wanted.count,
+            "of": self.wanted.of,
+            "parts": parts,
+            "in_no_part": self.named(&self.in_no_part()),
+            "without_base_line": split,
+            "contradictions": off,
+            "narrow": self.narrow,
+            "mappers": self.mappers.as_ref().filter(|_| self.no_model().is_none()),
+            "no_model": self.no_model(),
+            "do_next": self.next.commands,
+            "by_hand": self.next.by_hand,
+            "expect": self.next.expect,
+            "seconds": self.time.as_secs_f64(),
+        }));
         let seed = decided.map(|report| report.verdict.seed);
-        write_line(out, "overview", seed, &line)
+        write_line(out, "overview", seed, &joined(line, self.joints))
     }
-}
-
-#[derive(Serialize)]
-struct Line<'a> {
-    /// The graph that determines: of tracks, if there are any, or else of pairs.
-    graph: Option<GraphLine<'a>>,
-    read: ReadLine<'a>,
-    notes: &'a [String],
-    #[serde(skip_serializing_if = "Option::is_none")]
-    database: Option<DatabaseLine>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pairs: Option<PairLine>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    intrinsics: Option<&'a IntrinsicsLine>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    tracks: Option<PositionLine<'a>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    no_tracks: Option<&'a str>,
-    #[serde(flatten)]
-    joints: &'a Advice,
-    determined: bool,
-    /// What that rests on.
-    condition: String,
-    determined_by: &'static str,
-    images: usize,
-    of: usize,
-    parts: Vec<part_names::PartLine>,
-    in_no_part: Vec<String>,
-    #[serde(skip_serializing_if = "<[_]>::is_empty")]
-    without_base_line: &'a [WithoutBaseLine],
-    #[serde(skip_serializing_if = "Option::is_none")]
-    contradictions: Option<Value>,
-    narrow: &'a Narrow,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    mappers: Option<&'a Foreseen>,
-    /// Why mappers make nothing, where that is known beforehand.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    no_model: Option<String>,
-    do_next: &'a [Do],
-    /// What to do where no command helps.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    by_hand: Option<&'a str>,
-    expect: &'a str,
-    seconds: f64,
-}
-
-#[derive(Serialize)]
-struct PairLine {
-    images: usize,
-    images_with_pair: usize,
-    pairs: usize,
-    projective: AnswerLine,
-    calibrated: AnswerLine,
-}
-
-#[derive(Serialize)]
-struct PositionLine<'a> {
-    #[serde(flatten)]
-    facts: TrackLine,
-    positions: AnswerLine,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    base_lines: Option<&'a BaseLines>,
 }
 
 /// A part whose images no pairs with a base line hold together.

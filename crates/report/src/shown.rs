@@ -1,6 +1,10 @@
-//! Lists that are cut.
+//! Lists that are cut, and the first lines of reports.
 
+use crate::size_of;
+use std::fmt::Display;
 use std::io::{self, Write};
+use viewcert::wording::printable;
+use viewcert_formats::NamedGraph;
 
 /// How many entries of a list are shown.
 pub(crate) const SHOWN: usize = 8;
@@ -34,4 +38,25 @@ pub(crate) fn several(sizes: &[usize], between: &str) -> String {
         shown.push(format!("{} more", sizes.len() - SHOWN));
     }
     shown.join(between)
+}
+
+/// Writes a line of a report: a title, and words behind it.
+pub(crate) fn row(out: &mut impl Write, title: &str, words: impl Display) -> io::Result<()> {
+    writeln!(out, "  {title:<11} {words}")
+}
+
+/// Writes the lines that say what graph it is and how it was read.
+///
+/// # Errors
+/// Those of the writer.
+pub fn head(out: &mut impl Write, input: &NamedGraph) -> io::Result<()> {
+    writeln!(out, "{}", printable(&input.name))?;
+    row(out, "read as", &input.read)?;
+    row(out, "graph", size_of(input))?;
+    notes(out, &input.notes)
+}
+
+/// Writes what was noted.
+pub(crate) fn notes(out: &mut impl Write, notes: &[String]) -> io::Result<()> {
+    notes.iter().try_for_each(|note| row(out, "note", note))
 }

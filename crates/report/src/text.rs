@@ -2,11 +2,11 @@
 
 use super::{Report, condition, counted, database, size_with_parts, tracks};
 use crate::assumptions::Scope;
+use crate::shown::{notes, row};
 use std::io::{self, Write};
 use viewcert::Model;
-use viewcert::contract::Merge;
 use viewcert::decide::Strength;
-use viewcert::decide::evidence::{Evidence, Witness};
+use viewcert::decide::evidence::Evidence;
 use viewcert::decide::{Component, SolutionCount, Value, Verdict};
 use viewcert::wording::printable;
 use viewcert_formats::NamedGraph;
@@ -21,40 +21,39 @@ const SHOWN: usize = 8;
 pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
     let (input, verdict) = (report.input, report.verdict);
     writeln!(out, "{}", printable(&input.name))?;
-    writeln!(out, "  read as     {}", input.read)?;
-    writeln!(out, "  graph       {}", size_with_parts(input, verdict))?;
+    row(out, "read as", &input.read)?;
+    row(out, "graph", size_with_parts(input, verdict))?;
     if let Some(facts) = &input.database {
         database::write(out, facts)?;
     }
     if let Some(facts) = &input.tracks {
         tracks::write(out, facts)?;
     }
-    for note in &input.notes {
-        writeln!(out, "  note        {note}")?;
+    notes(out, &input.notes)?;
+    let own_frame = report.scope.own_frame();
+    if let Some(own_frame) = own_frame {
+        row(out, "known", own_frame.known())?;
     }
-    if let Some(own_frame) = report.scope.own_frame() {
-        writeln!(out, "  known       {}", own_frame.known())?;
+    let known = &verdict.displacements;
+    if !known.is_empty() {
+        let cameras = counted(known.nodes(), "camera");
+        let groups = counted(known.groups().len(), "group");
+        let given = known.vectors().map_or("", |_| ", as given vectors");
+        let words = format!("displacements between {cameras} in {groups}{given}");
+        row(out, "known", words)?;
     }
-    if !verdict.displacements.is_empty() {
-        let known = &verdict.displacements;
-        writeln!(
+    row(out, "verdict", answer(report))?;
+    let rank = format!("{} of {}", verdict.rank, verdict.required);
+    if let Some(own_frame) = own_frame {
+        row(out, "because", own_frame.because())?;
+        row(out, "with given", own_frame.count(input))?;
+        row(
             out,
-            "  known       displacements between {} in {}{}",
-            counted(known.nodes(), "camera"),
-            counted(known.groups().len(), "group"),
-            known.vectors().map_or("", |_| ", as given vectors")
+            "measured",
+            format_args!("{}, rank {rank}", measured(report)),
         )?;
-    }
-    writeln!(out, "  verdict     {}", answer(report))?;
-    if let Some(own_frame) = report.scope.own_frame() {
-        writeln!(out, "  because     {}", own_frame.because())?;
-        writeln!(out, "  with given  {}", own_frame.count(input))?;
-        let (rank, required) = (verdict.rank, verdict.required);
-        let measured = measured(report);
-        writeln!(out, "  measured    {measured}, rank {rank} of {required}")?;
     } else {
-        let because = because(input, verdict, report.scope);
-        writeln!(out, "  because     {because}")?;
+        row(out, "because", because(input, verdict, report.scope))?;
     }
     let of_components = verdict.components.iter().map(|one| &one.solutions);
     let mut counts = of_components.chain([&verdict.solutions]).flatten();
@@ -63,32 +62,29 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
         writeln!(out, "  hint        {hint}")?;
     }
     for condition in report.scope.conditions() {
-        writeln!(out, "  condition   {condition}")?;
+        row(out, "condition", condition)?;
     }
     if let Some(planar) = report.scope.planar() {
-        writeln!(out, "  in a plane  {}", planar.words())?;
+        row(out, "in a plane", planar.words())?;
     }
     if let Some(base_lines) = report.scope.base_lines() {
-        writeln!(out, "  base lines  {}", base_lines.words())?;
+        row(out, "base lines", base_lines.words())?;
     }
     if let Some(intrinsics) = report.scope.intrinsics() {
         intrinsics.write(out)?;
     }
-    match report.scope.own_frame() {
-        Some(own_frame) => writeln!(out, "  rank        {}", own_frame.rank_words())?,
-        None => writeln!(
-            out,
-            "  rank        {} of {} ({})",
-            verdict.rank,
-            verdict.required,
-            strength(verdict.rank_claim().strength)
-        )?,
+    match own_frame {
+        Some(own_frame) => row(out, "rank", own_frame.rank_words())?,
+        None => {
+            let strength = strength(verdict.rank_claim().strength);
+            row(out, "rank", format_args!("{rank} ({strength})"))?;
+        }
     }
     write_components(out, report)?;
     if let Some(here) = &report.here {
         here.write_text(out, report.list_components)?;
     }
-    writeln!(out, "  time        {}", seconds(report.time.as_micros()))
+    row(out, "time", seconds(report.time.as_micros()))
 }
 
 /// Writes the components of a verdict.
@@ -101,11 +97,11 @@ pub(super) fn write_components(out: &mut impl Write, report: &Report) -> io::Res
     if let Some(cameras) = input.cameras {
         return tracks::write_components(out, report, cameras, &strength);
     }
-    writeln!(
+    let (count, sizes) = (verdict.components.len(), sizes(verdict));
+    row(
         out,
-        "  components  {} ({strength}){}",
-        verdict.components.len(),
-        sizes(verdict)
+        "components",
+        format_args!("{count} ({strength}){sizes}"),
     )?;
     if report.list_components {
         for (k, component) in (1..).zip(&verdict.components) {
@@ -199,40 +195,13 @@ fn reason(input: &NamedGraph, verdict: &Verdict) -> String {
     if nodes == 1 {
         return "a single camera has nothing to be relative to".into();
     }
-    let is_scaled = !verdict.displacements.is_empty();
-    if verdict.pieces.is_empty() && verdict.value == Value::Solvable && is_scaled {
-        return match verdict.contraction.bodies.len() {
-            1 => format!("the displacements of all {nodes} cameras are known"),
-            _ => {
-                format!(
-                    "known displacements and pairs merge into one body of all {nodes} {members}"
-                )
-            }
-        };
-    }
     if verdict.pieces.is_empty() && verdict.value == Value::Solvable {
-        return match verdict.contraction.bodies.len() {
-            1 if !verdict.known_parts.is_empty() => {
-                format!("one known part has all {nodes} cameras")
-            }
-            _ if !verdict.known_parts.is_empty() => {
-                format!("known parts and pairs merge into one body with all {nodes} cameras")
-            }
-            0 => "a single pair determines its two cameras".into(),
-            1 => match input.cameras {
-                None => match &verdict.contraction.bodies[0].merge[..] {
-                    [Merge::Biclique { .. }, ..] => {
-                        format!("one body of {nodes} cameras around a K_{{2,3}}")
-                    }
-                    [Merge::Cycle { .. }, ..] => {
-                        format!("one body of {nodes} cameras around a cycle of four")
-                    }
-                    _ => format!("one body grows from a triangle to all {nodes} cameras"),
-                },
-                Some(_) => format!("one body grows to all {nodes} {members}"),
-            },
-            merges => format!("{merges} bodies merge into one with all {nodes} {members}"),
+        let known = match (verdict.displacements.is_empty(), verdict.known_parts.len()) {
+            (false, _) => "known displacements and pairs",
+            (true, 1..) => "known parts and pairs",
+            (true, 0) => "pairs",
         };
+        return format!("{known} merge into one body of all {nodes} {members}");
     }
     if let Some(why) = verdict.solutions.as_ref().and_then(SolutionCount::because) {
         return why;
@@ -249,10 +218,7 @@ fn reason(input: &NamedGraph, verdict: &Verdict) -> String {
     let covered: usize = verdict.pieces.iter().map(|piece| piece.upper).sum();
     match verdict.value_claim().strength {
         Strength::ErrorBound(_) => "the rank falls short at random cameras".into(),
-        Strength::Proof if parts == 0 => match input.cameras {
-            None => "there are no pairs".into(),
-            Some(_) => "no track counts".into(),
-        },
+        Strength::Proof if parts == 0 && input.cameras.is_none() => "there are no pairs".into(),
         Strength::Proof if parts > 1 => {
             format!("{parts} parts hang together in {single}, or not at all")
         }
@@ -260,10 +226,7 @@ fn reason(input: &NamedGraph, verdict: &Verdict) -> String {
             format!("counting allows rank {covered} at most")
         }
         Strength::Proof => match input.cameras {
-            None if !verdict.known_parts.is_empty() => {
-                "some cameras have no pairs and are in no known part".into()
-            }
-            None => "some cameras have no pairs".into(),
+            None => "some cameras have no pairs and are in no known part".into(),
             Some(_) => "some cameras see no track that counts".into(),
         },
     }
@@ -271,40 +234,17 @@ fn reason(input: &NamedGraph, verdict: &Verdict) -> String {
 
 /// By which minor the rank is full.
 fn full_rank(verdict: &Verdict) -> String {
-    let by_rank = verdict.by_rank.len();
-    if verdict.pieces.is_empty() && by_rank > 0 {
-        return match by_rank {
-            1 => "all cameras are in one body of full rank".into(),
-            parts => format!("{parts} parts of full rank merge into one body with all cameras"),
-        };
-    }
-    let kind = verdict
-        .pieces
-        .iter()
-        .flat_map(|piece| &piece.evidence)
-        .next_back();
-    match kind {
-        Some(Evidence::IntegerMinor(minor)) => {
-            let witness = match &minor.witness {
-                Witness::Determinant(determinant) => {
-                    format!(
-                        "a determinant of {}",
-                        counted(determinant.bits() as usize, "bit")
-                    )
-                }
-                Witness::Prime(prime) => format!("not even modulo {prime}"),
-            };
-            format!("a minor of the Jacobian at rational cameras is not zero ({witness})")
+    let pieces = verdict.pieces.iter();
+    match pieces.flat_map(|piece| &piece.evidence).next_back() {
+        Some(Evidence::IntegerMinor(_)) => {
+            "a minor of the Jacobian at rational cameras is not zero".into()
         }
-        Some(Evidence::Minor { draw, .. }) => {
-            format!("a minor of the Jacobian is not zero modulo {}", draw.prime)
-        }
-        Some(Evidence::PlaneFlow { draw, .. }) => {
-            format!("full rank at one camera set modulo {}", draw.prime)
-        }
-        Some(Evidence::PlaneMinor { draw, .. }) => {
-            format!("full rank at points in the plane modulo {}", draw.prime)
-        }
+        Some(
+            Evidence::Minor { draw, .. }
+            | Evidence::PlaneFlow { draw, .. }
+            | Evidence::PlaneMinor { draw, .. },
+        ) => format!("full rank at drawn cameras modulo {}", draw.prime),
+        _ if !verdict.by_rank.is_empty() => "parts of full rank merge into one body".into(),
         _ => "full rank".into(),
     }
 }

@@ -12,31 +12,10 @@ const SHOWN: usize = 8;
 
 /// The tracks as `verify --json` prints them, in the member `tracks`.
 #[derive(Serialize)]
-pub struct TrackLine {
-    min_views: u32,
-    cameras: u32,
-    points: usize,
-    observations: usize,
-    cameras_without_point: usize,
-    merged: usize,
-    inconsistent: usize,
-    short: usize,
-}
-
-impl TrackLine {
-    /// The line of a camera-point graph.
-    pub fn new(cameras: u32, facts: &TrackFacts) -> Self {
-        Self {
-            min_views: facts.min_views,
-            cameras,
-            points: facts.points,
-            observations: facts.observations,
-            cameras_without_point: facts.cameras_without_point,
-            merged: facts.merged,
-            inconsistent: facts.inconsistent,
-            short: facts.short,
-        }
-    }
+pub(super) struct TrackLine<'a> {
+    pub(super) cameras: u32,
+    #[serde(flatten)]
+    pub(super) facts: &'a TrackFacts,
 }
 
 /// How many cameras and points a component has; the cameras are the first nodes of the graph.

@@ -4,10 +4,9 @@ use super::bars::{Chart, Group};
 use serde::Serialize;
 use std::io::{self, Write};
 use viewcert::wording::printable;
-use viewcert_formats::NamedGraph;
+use viewcert_formats::{NamedGraph, ReadAs};
 use viewcert_lab_studies::formulation::compare::{Comparison, Line, MatrixLine, Outcome};
 use viewcert_report::json::{GraphLine, write_line};
-use viewcert_report::read::ReadLine;
 use viewcert_report::{counted, size};
 
 /// Writes a table.
@@ -120,7 +119,7 @@ fn rank_cells(line: &Line) -> String {
 #[derive(Serialize)]
 struct Json<'a> {
     graph: GraphLine<'a>,
-    read: ReadLine<'a>,
+    read: &'a ReadAs,
     notes: &'a [String],
     draw: u64,
     agree: Option<bool>,
@@ -197,7 +196,7 @@ pub fn json(
     let is_checked = found.affine_f.is_none() && found.computed() > 0;
     let line = Json {
         graph: GraphLine::of(input),
-        read: ReadLine::from(&input.read),
+        read: &input.read,
         notes: &input.notes,
         draw: found.draw,
         agree: match found.outcome(&input.graph) {

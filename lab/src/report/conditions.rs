@@ -4,11 +4,10 @@ use serde::Serialize;
 use std::io::{self, Write};
 use viewcert::geometry::model::Model;
 use viewcert::wording::printable;
-use viewcert_formats::NamedGraph;
+use viewcert_formats::{NamedGraph, ReadAs};
 use viewcert_lab_studies::conditions::moves::Move;
 use viewcert_lab_studies::conditions::{Answer, Condition, Grounds, refuted, solvable};
 use viewcert_report::json::{GraphLine, write_line};
-use viewcert_report::read::ReadLine;
 use viewcert_report::{counted, size};
 
 fn answer(condition: &Condition) -> &'static str {
@@ -154,7 +153,7 @@ pub fn text(out: &mut impl Write, input: &NamedGraph, found: &[Condition]) -> io
 #[derive(Serialize)]
 struct Json<'a> {
     graph: GraphLine<'a>,
-    read: ReadLine<'a>,
+    read: &'a ReadAs,
     notes: &'a [String],
     result: &'static str,
     conditions: Vec<JsonCondition>,
@@ -191,7 +190,7 @@ pub fn json(out: &mut impl Write, input: &NamedGraph, found: &[Condition]) -> io
         .collect();
     let line = Json {
         graph: GraphLine::of(input),
-        read: ReadLine::from(&input.read),
+        read: &input.read,
         notes: &input.notes,
         result: conclusion(found),
         conditions,

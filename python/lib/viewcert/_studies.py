@@ -5,13 +5,13 @@ from __future__ import annotations
 import json
 import os
 from dataclasses import dataclass, field
-from typing import Annotated, Any, Dict, List, Literal, Mapping, Optional, Sequence, Union
+from typing import Annotated, Any, Dict, List, Literal, Optional
 
 from . import _native
 from ._answers import of_said
 from ._arguments import one_of, whole
 from ._errors import Error, InputError
-from ._graph import Graph, Path, as_graph
+from ._graph import Graph, as_graph
 from ._pickled import found_of
 from ._question import asked, beside
 from ._tables import csv_of, rows_of
@@ -122,8 +122,6 @@ class Ruling(_Said):
 def audit_claims(
     table: Any,
     *,
-    graphs: Union[Path, Mapping[str, Any], None] = None,
-    ignore: Sequence[str] = (),
     seed: int = 1,
     errors: Literal["raise", "return"] = "raise",
 ) -> List[Any]:
@@ -132,14 +130,9 @@ def audit_claims(
     Parameters
     ----------
     table : path, data frame, mapping, or iterable of mappings
-        A file of CSV, or rows. Columns are ``graph`` (a graph, a line of graph6, a path, or as
-        ``name``), ``graph6``, ``file`` or
-        ``name`` (in `graphs`), and what is claimed: ``verdict``, ``components``, ``solutions``, ``rank``,
+        A file of CSV, or rows. Columns are ``graph`` (a graph, a line of graph6, a path), ``graph6``, ``file`` or
+        ``name`` (paths), and what is claimed: ``verdict``, ``components``, ``solutions``, ``rank``,
         ``model``; ``nodes``, ``edges`` and ``sha256`` say which graph is meant. See docs/audit.md.
-    graphs : path or mapping, optional
-        The folder of the graphs that are named, or the graphs by their names.
-    ignore : sequence of str
-        Columns that are not looked at.
     seed : int
         The seed of all random cameras.
     errors : {'raise', 'return'}
@@ -170,20 +163,12 @@ def audit_claims(
                     row[name] = given[number] if isinstance(given[number], str) else "graph"
         given = {number: graph for number, graph in given.items() if not isinstance(graph, str)}
         text = csv_of(rows)
-    claims = _native.Claims(text, list(ignore))
-    named = dict(graphs) if isinstance(graphs, Mapping) else {}
-    folder = None if graphs is None or isinstance(graphs, Mapping) else os.fspath(graphs)
+    claims = _native.Claims(text)
     wanted, _ = asked(seed=seed)
     found: List[Any] = []
     for number in range(len(claims)):
         try:
-            graph = given.get(number)
-            if graph is None and named:
-                called, is_name = claims.name(number) or ("", False)
-                if is_name and called not in named:
-                    raise InputError(f"unknown graph {called!r}: `graphs` has none of that name")
-                graph = named.get(called)
-            found.append(_ruled(claims, number, wanted, graph, folder))
+            found.append(_ruled(claims, number, wanted, given.get(number)))
         except Error as error:
             if errors == "raise":
                 raise type(error)(f"row {number + 1}: {error}") from None
@@ -191,13 +176,9 @@ def audit_claims(
     return found
 
 
-def _ruled(
-    claims: _native.Claims, number: int, wanted: Dict[str, Any], graph: Any, folder: Optional[str]
-) -> Ruling:
+def _ruled(claims: _native.Claims, number: int, wanted: Dict[str, Any], graph: Any) -> Ruling:
     given = None if graph is None else as_graph(graph)
-    native, decided, said = claims.rule(
-        number, wanted, graph=None if given is None else given._native, folder=folder
-    )
+    native, decided, said = claims.rule(number, wanted, graph=None if given is None else given._native)
     found = json.loads(said[0])
     question = {"wanted": {**wanted, "model": decided.said()["model"]}, "beside": beside()}
     verdict = Verdict._of(Graph._of(native) if given is None else given, decided, question)

@@ -146,6 +146,14 @@ impl Integer {
         self.0.bits()
     }
 
+    /// The largest integer whose square is at most this one.
+    ///
+    /// # Panics
+    /// If this is negative.
+    pub fn square_root(&self) -> Self {
+        Self(self.0.sqrt())
+    }
+
     /// The residue `0 <= r < modulus`.
     ///
     /// # Panics

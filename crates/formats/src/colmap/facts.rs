@@ -1,10 +1,10 @@
 //! What a database is, on one screen.
 
 use super::Pipeline;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 use std::borrow::Cow;
 
-/// A summary of a database; images are those of its table of images, pairs the rows of its table of
+/// A summary of a database, the member `database` of reports; images are those of its table of images, pairs the rows of its table of
 /// verified pairs between two such images.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct DatabaseFacts {
@@ -23,6 +23,7 @@ pub struct DatabaseFacts {
     /// How many of them are used: the pairs of the viewing graph.
     pub pairs_used: usize,
     /// The pairs by the configuration of their geometry, increasing.
+    #[serde(serialize_with = "named")]
     pub configs: Vec<ConfigCount>,
     /// The pairs by their numbers of inliers; bins without pairs are left out.
     pub inliers: Vec<Bin>,
@@ -32,21 +33,43 @@ pub struct DatabaseFacts {
     /// How many rigs have more than one sensor.
     pub rigs: usize,
     /// How many images have a position by their pose priors.
+    #[serde(default, skip_serializing_if = "is_zero")]
     pub positions: usize,
     /// How many images with a pair have a camera that no two others of them have, and a focal length that is
     /// a guess.
+    #[serde(default, skip_serializing_if = "is_zero")]
     pub focal_guessed: usize,
     /// How many cameras that three images or more with a pair have and whose focal length is a guess.
+    #[serde(default, skip_serializing_if = "is_zero")]
     pub focal_shared: usize,
     /// Whether, by the relative rotations of pairs, the optical axes of all images with a pair are parallel;
     /// asked only where a camera has a focal length that is a guess.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub axes_parallel: bool,
     /// How many images with a pair have no keypoints.
+    #[serde(default, skip_serializing_if = "is_zero")]
     pub images_without_keypoints: usize,
     /// The sizes of the connected parts of the viewing graph in images, falling; images without a
     /// pair are parts of one.
     pub connected: Vec<usize>,
+}
+
+fn is_zero(count: &usize) -> bool {
+    *count == 0
+}
+
+/// Configurations with their names.
+fn named<S: Serializer>(configs: &[ConfigCount], to: S) -> Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct Named {
+        name: &'static str,
+        #[serde(flatten)]
+        count: ConfigCount,
+    }
+    to.collect_seq(configs.iter().map(|&count| Named {
+        name: config_name(count.config),
+        count,
+    }))
 }
 
 /// How many pairs have a configuration.
@@ -66,6 +89,7 @@ pub struct Bin {
     /// The least number in the bin.
     pub from: u32,
     /// The largest, if there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub to: Option<u32>,
     /// How many pairs there are.
     pub pairs: usize,

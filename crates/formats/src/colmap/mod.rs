@@ -149,6 +149,7 @@ pub const DEFAULT_MIN_INLIERS: u32 = 15;
 
 /// Which mapper the graph is for: it says which verified pairs are edges.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Pipeline {
     /// Every pair with enough inliers, whatever its configuration.
     #[default]
