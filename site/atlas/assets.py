@@ -64,14 +64,15 @@ def samples(cache, python):
     """Inputs to try the program with, by the names of their files: what each is, and its bytes."""
     walk = pathlib.Path(cache) / "walk.db"
     subprocess.run([python, ROOT / "benches/database.py", walk, "--images", "40", "--points", "1200"], check=True, stdout=subprocess.DEVNULL)
-    gap = walk.with_name("gap.db")
-    shutil.copy(walk, gap)
-    with contextlib.closing(sqlite3.connect(gap)) as database:
+    with contextlib.closing(sqlite3.connect(walk)) as database:
+        # Each is one file.
+        database.execute("pragma journal_mode = delete")
+        whole = database.serialize()
         for table in ("matches", "two_view_geometries"):
             database.execute(f"delete from {table} where pair_id / {PAIRS} <= 20 and pair_id % {PAIRS} > 20 and pair_id <> {20 * PAIRS + 21}")
-        database.commit()
+        parted = database.serialize()
     lists = {name: (words, (ROOT / f"examples/{name}").read_bytes()) for name, words in (("courtyard.txt", "a list: a courtyard"), ("courtyard-gaps.txt", "a list with gaps"))}
-    return {"walk.db": ("a database: a walk", walk.read_bytes()), "gap.db": ("a database that one pair holds together", gap.read_bytes())} | lists
+    return {"walk.db": ("a database: a walk", whole), "gap.db": ("a database that one pair holds together", parted)} | lists
 
 
 def plain(markdown):

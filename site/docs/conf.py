@@ -6,6 +6,7 @@ import pathlib
 import subprocess
 import sys
 from html import escape
+from docutils.nodes import SkipNode
 
 HERE = pathlib.Path(__file__).parent
 PLACE = json.loads((HERE / "place.json").read_text())
@@ -62,17 +63,13 @@ FORMULAS = Formulas()
 
 
 def inline(translator, node):
-    from docutils import nodes
-
     translator.body.append(FORMULAS.mathml(node.astext(), False))
-    raise nodes.SkipNode
+    raise SkipNode
 
 
 def block(translator, node):
-    from docutils import nodes
-
     translator.body.append(f'<div class="formula" tabindex="0">{FORMULAS.mathml(node.astext(), True)}</div>')
-    raise nodes.SkipNode
+    raise SkipNode
 
 
 def described(app, page, template, context, doctree):

@@ -15,8 +15,8 @@ async function below(entry, path) {
 async function dropped(items) {
   // All entries at once: the list is empty after the first wait.
   const found = [...items].filter((item) => item.kind === "file").map((item) => [item.webkitGetAsEntry?.(), item.getAsFile()]);
-  const files = await Promise.all(found.map(([entry, file]) => (entry?.isDirectory ? below(entry, "") : [[file.name, file]])));
-  return files.flat();
+  const read = (entry) => below(entry, "").catch(() => { throw new Error("a browser gives no dropped folder to a page of the disk: choose the folder by its button"); });
+  return (await Promise.all(found.map(([entry, file]) => (entry?.isDirectory ? read(entry) : [[file.name, file]])))).flat();
 }
 
 // What the program is asked about: the one file or folder that is no companion of a database.

@@ -5,8 +5,7 @@ const id = (name) => document.getElementById(name);
 const SVG = "http://www.w3.org/2000/svg";
 const drawn = { nodes: 0, pairs: [], names: null, places: [], chosen: null };
 const MOST_DRAWN = 200;
-// The most cameras of a label.
-const MOST_NODES = 16;
+const MOST_NODES = 16; // Of a label.
 
 async function rowOf(label) {
   await load("rows.js");
