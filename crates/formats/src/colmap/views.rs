@@ -5,6 +5,7 @@
 
 use crate::error::Problem;
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::f64::consts::{PI, TAU};
 
 use rusqlite::types::ValueRef;
@@ -232,9 +233,9 @@ impl<'a> Views<'a> {
             cache.clear();
         }
         for image in images {
-            if !cache.contains_key(&image) {
+            if let Entry::Vacant(place) = cache.entry(image) {
                 let found = places(self.connection, self.ids[image as usize])?;
-                cache.insert(image, found.ok().flatten().unwrap_or_default());
+                place.insert(found.ok().flatten().unwrap_or_default());
             }
         }
         Ok(())

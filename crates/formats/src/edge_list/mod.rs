@@ -334,7 +334,7 @@ impl Collector {
         let digits = label.bytes().all(|b| b.is_ascii_digit());
         if !digits && is_number(label.as_bytes()) {
             let what = "is a number and no integer: coordinates, perhaps";
-            return Err(Problem::lines(format!("`{}` {what}", shown(label))).into());
+            return Err(Problem::lines(format!("`{}` {what}", shown(label))));
         }
         if self.layout.head != Head::None {
             return Ok(());
@@ -440,7 +440,7 @@ impl Collector {
         if self.layout.head == Head::Line && (is_label || is_like()) {
             let what = "may be a head, and it looks like the labels below";
             let refusal = Problem::odd("first", &shown, what);
-            return Err(Place::Line(line).fault(refusal.into()));
+            return Err(Place::Line(line).fault(refusal));
         }
         Ok(Some(format!("the first line is a head: {shown}")))
     }

@@ -307,10 +307,10 @@ fn asked(mut layout: Layout, columns: &Columns, names: Vec<String>) -> Result<La
     let number = |column: &str| usize::try_from(integer(column)?).ok();
     let by_name = columns.0.iter().any(|column| number(column).is_none());
     let line = by_name || !names::pairs_among(&names).is_empty();
-    let place = |column: &Box<str>| {
+    let place = |column: &str| {
         let place = match number(column) {
             Some(place) => place.checked_sub(1).filter(|&place| place < names.len()),
-            None => names.iter().position(|other| other.trim() == &**column),
+            None => names.iter().position(|other| other.trim() == column),
         };
         place.ok_or_else(|| {
             let there = match by_name {
@@ -322,7 +322,7 @@ fn asked(mut layout: Layout, columns: &Columns, names: Vec<String>) -> Result<La
         })
     };
     layout.ends = [place(&columns.0[0])?, place(&columns.0[1])?];
-    layout.weight = columns.0.get(2).map(place).transpose()?;
+    layout.weight = columns.0.get(2).map(|it| place(it)).transpose()?;
     layout.names = Some(names).filter(|_| line);
     layout.head = Head::Asked { line };
     Ok(layout)

@@ -37,7 +37,7 @@ pub(super) fn not_used(graph: &NamedGraph) -> Option<String> {
 pub(super) fn read(path: &Path, graph: &NamedGraph, one_frame: bool) -> Result<Given, ReadError> {
     let name = path.display().to_string();
     let fault = |problem: Problem| Place::Input.fault(problem).in_file(&name);
-    let priors = pose_priors(path).map_err(|error| fault(error.into()))?;
+    let priors = pose_priors(path).map_err(fault)?;
     let mut given = of(&priors, graph, one_frame).map_err(|fault| fault.in_file(&name))?;
     for note in &mut given.notes {
         *note = format!("{name}: {note}");

@@ -68,7 +68,7 @@ pub fn of_database(path: &Path, input: &NamedGraph, priors: bool) -> Result<Intr
             FILE,
         )));
     }
-    let lengths = colmap::focal_lengths(path).map_err(|error| fault(error.into()))?;
+    let lengths = colmap::focal_lengths(path).map_err(fault)?;
     let FocalLengths { cameras, known } = lengths;
     let mut sensor_of: HashMap<i64, usize> = HashMap::new();
     let (mut without, mut spheres) = (0, 0);
