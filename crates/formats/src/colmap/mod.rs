@@ -71,7 +71,7 @@ use std::path::Path;
 /// # Errors
 /// Always.
 #[cfg(not(feature = "databases"))]
-pub(crate) fn pose_priors(_: &Path) -> Result<PosePriors, Problem> {
+pub(crate) fn pose_priors(_: &Path) -> Result<PosePriors, crate::error::Problem> {
     Err(error::not_built())
 }
 
@@ -80,7 +80,7 @@ pub(crate) fn pose_priors(_: &Path) -> Result<PosePriors, Problem> {
 /// # Errors
 /// Always.
 #[cfg(not(feature = "databases"))]
-pub(crate) fn focal_lengths(_: &Path) -> Result<FocalLengths, Problem> {
+pub(crate) fn focal_lengths(_: &Path) -> Result<FocalLengths, crate::error::Problem> {
     Err(error::not_built())
 }
 
