@@ -8,7 +8,6 @@
     python3 benches/measure.py sequence [--nodes 1000000]
     python3 benches/measure.py tracks
     python3 benches/measure.py hubs
-    python3 benches/measure.py noticed    [--data DIR] [--program FILE]
     python3 benches/measure.py readers
     python3 benches/measure.py against OLD   [--data DIR]
 
@@ -369,31 +368,6 @@ def hubs(arguments, folder):
 AACHEN = (4328, 56_717)
 
 
-def noticed(arguments, folder):
-    """What a graph can notice, on the paper's real graphs: CPU time by that of the verdict."""
-    data = Path(arguments.data)
-    with open(data / "table3.csv") as table:
-        published = list(csv.DictReader(table))
-    asked = [["--surplus"], ["--implied=0"]]
-    models = ["projective", "calibrated", "affine"]
-    head("graph", "pairs", "without full surplus", "verdict, CPU ms",
-         *(f"surplus, {model}" for model in models), "implied")
-    for line in published:
-        path = data / "table3" / line["file"]
-        program = arguments.program
-        verdicts = [[program, "--json", "--model", model, path] for model in models]
-        surplus = [[program, "advise", "--json", "--surplus", "--model", model, path] for model in models]
-        others = [[program, "advise", "--json", *words, path] for words in asked[1:]]
-        results = compare(verdicts + surplus + others, arguments.runs)
-        found = subprocess.run(surplus[0], capture_output=True, text=True)
-        items = json.loads(found.stdout)["surplus"]["items"]
-        assert all(item["strength"] == "proof" for item in items)
-        cpus = [result.cpu for result in results]
-        by_model = [cpus[3 + k] / cpus[k] for k in range(3)]
-        row(line["name"], line["edges"], len(items), f"{1000 * cpus[0]:.1f}",
-            *(f"{ratio:.1f}" for ratio in by_model), *(f"{cpu / cpus[0]:.1f}" for cpu in cpus[6:]))
-
-
 def match_list(path, images, pairs):
     """A list of pairs of names, each image with some of the next twenty."""
     draw = random.Random(1)
@@ -492,16 +466,16 @@ def against(arguments, folder):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     commands = parser.add_subparsers(required=True, metavar="table3 | float | rational | cores | sparse | sequence | "
-                                         "tracks | hubs | noticed | readers | peers | against")
+                                         "tracks | hubs | readers | peers | against")
     for name, function, runs in [("table3", table3, 31), ("float", float_side, 3), ("rational", rational, 5),
                                  ("cores", cores, 3), ("sparse", sparse, 1), ("sequence", sequence, 3), ("tracks", tracks, 3),
-                                 ("hubs", hubs, 3), ("noticed", noticed, 5), ("readers", readers, 5), ("peers", peers, 3), ("against", against, 7)]:
+                                 ("hubs", hubs, 3), ("readers", readers, 5), ("peers", peers, 3), ("against", against, 7)]:
         command = commands.add_parser(name, help=function.__doc__)
         command.set_defaults(run=function)
         command.add_argument("--runs", type=int, default=runs, help="runs a median is taken of")
         if name == "against":
             command.add_argument("old", help="the older `verify`")
-        if name in ("table3", "float", "noticed", "against"):
+        if name in ("table3", "float", "against"):
             command.add_argument("--data", default=str(ROOT.parent / "shared" / "data"),
                                  help="folder of table3.csv and table3/*.mat")
         if name == "float":

@@ -14,31 +14,10 @@ use viewcert_advice::{Request, Weak};
 pub(super) struct AdviseArguments {
     #[arg(required = true, value_name = "GRAPH", help = GRAPHS)]
     graphs: Vec<PathBuf>,
-    #[command(flatten)]
-    advice: AdviceArguments,
-    /// Write the pairs that are left to match to FILE, and print COLMAP's command.
-    #[arg(long, value_name = "FILE")]
-    write: Option<PathBuf>,
-    #[command(flatten)]
-    question: QuestionArguments,
-    #[command(flatten)]
-    intrinsics: IntrinsicsArguments,
-}
-
-/// What is asked about an answer.
-#[derive(Args)]
-pub(super) struct AdviceArguments {
     /// The pairs, or images, without which a component falls apart.
     #[arg(long, value_name = "WHAT", num_args = 0..=1, require_equals = true)]
     #[arg(value_enum, default_missing_value = "pairs")]
     weak: Option<WeakName>,
-    /// In how many of its equations the rest checks each pair.
-    #[arg(long)]
-    surplus: bool,
-    /// Count the pairs that are determined and not in the graph, and list N.
-    #[arg(long, value_name = "N", num_args = 0..=1, require_equals = true)]
-    #[arg(default_missing_value = "1000")]
-    implied: Option<u32>,
     /// Pairs to match that would join components, N at most [default: 10].
     #[arg(long, value_name = "N", num_args = 0..=1, require_equals = true)]
     #[arg(default_missing_value = "10", value_parser = clap::value_parser!(u32).range(1..))]
@@ -46,6 +25,13 @@ pub(super) struct AdviceArguments {
     /// An image: its components, its pairs, what it would need.
     #[arg(long, value_name = "IMAGE")]
     explain: Option<String>,
+    /// Write the pairs that are left to match to FILE, and print COLMAP's command.
+    #[arg(long, value_name = "FILE")]
+    write: Option<PathBuf>,
+    #[command(flatten)]
+    question: QuestionArguments,
+    #[command(flatten)]
+    intrinsics: IntrinsicsArguments,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -65,29 +51,20 @@ impl AdviseArguments {
     pub(super) fn plan(&self) -> Result<Plan> {
         let mut plan = self.question.plan(&self.graphs)?;
         plan.intrinsics = self.intrinsics.from();
-        plan.request = self.advice.request();
-        plan.request.write = self.write.clone();
+        plan.request = Request {
+            weak: self.weak.map(|what| match what {
+                WeakName::Pairs => Weak::Pairs,
+                WeakName::Images => Weak::Images,
+            }),
+            suggest: self.suggest,
+            explain: self.explain.clone(),
+            write: self.write.clone(),
+            ..Request::default()
+        };
         let request = &plan.request;
         if !request.asks() || request.write.is_some() && request.suggest.is_none() {
             plan.request.suggest = Some(SUGGESTED);
         }
         plan.checked()
-    }
-}
-
-impl AdviceArguments {
-    /// What is asked.
-    pub(super) fn request(&self) -> Request {
-        Request {
-            weak: self.weak.map(|what| match what {
-                WeakName::Pairs => Weak::Pairs,
-                WeakName::Images => Weak::Images,
-            }),
-            surplus: self.surplus,
-            implied: self.implied,
-            suggest: self.suggest,
-            explain: self.explain.clone(),
-            ..Request::default()
-        }
     }
 }

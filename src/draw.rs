@@ -1,6 +1,5 @@
 //! `verify draw GRAPH FILE...`: one graph as a page and as a picture.
 
-use super::advise::AdviceArguments;
 use super::given::GivenArguments;
 use super::intrinsics::IntrinsicsArguments;
 use super::plan::Plan;
@@ -17,8 +16,6 @@ pub(super) struct DrawArguments {
     /// A page (.html), a picture (.svg), or both; `-` is the picture.
     #[arg(required = true, value_name = "FILE", num_args = 1..=2)]
     files: Vec<PathBuf>,
-    #[command(flatten)]
-    advice: AdviceArguments,
     #[command(flatten)]
     question: QuestionArguments,
     #[command(flatten)]
@@ -37,7 +34,6 @@ impl DrawArguments {
         plan.given = self.given.path().map(Into::into);
         plan.one_frame = self.given.is_one_frame();
         plan.intrinsics = self.intrinsics.from();
-        plan.request = self.advice.request();
         for file in &self.files {
             let is_standard = file == Path::new("-");
             let place = match extension(file).as_deref() {

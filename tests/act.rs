@@ -96,6 +96,48 @@ fn weak(line: &Value) -> BTreeSet<Vec<String>> {
     items.map(names).collect()
 }
 
+/// Two solutions: nine cameras with twelve pairs.
+const TWO: &str = "1 3\n1 4\n2 5\n3 5\n2 6\n4 6\n0 7\n4 7\n5 7\n0 8\n3 8\n6 8\n";
+
+/// Each pair of `TWO` inside a K_4 of its own, and one pair besides: unique. Whichever pair is lost it stays finite
+/// solvable, but without that one there are two solutions.
+#[test]
+fn what_is_kept_is_finite_solvability() {
+    let mut graph = "# viewcert pairs\n".to_owned();
+    for pair in TWO.lines() {
+        let (a, b) = pair.split_once(' ').unwrap();
+        let nodes = [
+            a.to_owned(),
+            b.to_owned(),
+            format!("u{a}{b}"),
+            format!("v{a}{b}"),
+        ];
+        for (k, one) in nodes.iter().enumerate() {
+            for other in &nodes[..k] {
+                graph += &format!("{one} {other}\n");
+            }
+        }
+    }
+    let decided = |graph: &str| {
+        verify_with(graph.as_bytes(), &["-", "--json"])
+            .json()
+            .remove(0)
+    };
+    assert_eq!(decided(&graph)["solutions"]["exactly"], 2);
+    graph += "0 1\n";
+    assert_eq!(decided(&graph)["verdict"], "solvable");
+    let line = report(&graph, &["advise", "--weak"]);
+    assert_eq!(line["weak"]["items"], json!([]));
+    assert_eq!(line["weak"]["kept"], "finite-solvable");
+    let said = text(&graph, &["advise", "--weak"]);
+    let words = "weak        none found\n    without any other one it stays finite solvable, if not unique\n";
+    assert!(said.contains(words), "{said}");
+    let said = text(&graph, &["advise", "--weak", "--model", "affine"]);
+    assert!(!said.contains("if not unique"), "{said}");
+    let line = report(&graph, &["advise", "--weak", "--model", "calibrated"]);
+    assert_eq!(line["weak"]["kept"], "solvable");
+}
+
 /// Three pairs of different images take 21 of 15 degrees of freedom, and leave one solution; two
 /// leave a motion.
 #[test]

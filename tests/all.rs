@@ -48,7 +48,6 @@ mod proof;
 mod readers;
 mod readme;
 mod reconstruction;
-mod redundancy;
 mod running;
 mod solution_certificates;
 mod solutions;

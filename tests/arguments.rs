@@ -96,8 +96,8 @@ fn the_line_to_type_can_be_typed() {
         ),
         (&["advise", graph, "--table=csv"], &[graph, "--table=csv"]),
         (
-            &["models", graph, "--surplus"],
-            &["advise", graph, "--surplus"],
+            &["models", graph, "--explain", "a"],
+            &["advise", graph, "--explain", "a"],
         ),
         (&[graph, "--prime", "1000003"], &[graph, "--prime=1000003"]),
         (

@@ -299,7 +299,7 @@ fn advice_on_priors_is_in_words() {
         "default unknown\n",
         "none alone determines anything else: it takes several",
     );
-    for option in ["--weak", "--surplus", "--implied", "--explain=a"] {
+    for option in ["--weak", "--explain=a"] {
         let run = with(TRIANGLE, "known a\n", &["advise", option]);
         assert_eq!(run.code, 2, "{option}");
         let name = option.split('=').next().unwrap();

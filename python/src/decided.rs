@@ -439,7 +439,7 @@ impl Decided {
 
     /// What the program says: `kind` is `json`, `text` or `html`.
     #[pyo3(signature = (
-        kind, *, list_components=false, weak=None, suggest=None, write=None, explain=None, export=None, surplus=false, implied=None, sensors=None
+        kind, *, list_components=false, weak=None, suggest=None, write=None, explain=None, export=None, sensors=None
     ))]
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn report<'py>(
@@ -452,8 +452,6 @@ impl Decided {
         write: Option<PathBuf>,
         explain: Option<String>,
         export: Option<PathBuf>,
-        surplus: bool,
-        implied: Option<u32>,
         sensors: Option<(Vec<String>, Vec<usize>)>,
     ) -> PyResult<Bound<'py, PyBytes>> {
         let sensors = sensors.map(|(words, of_node)| -> PyResult<_> {
@@ -466,8 +464,6 @@ impl Decided {
         });
         let mut request = Request {
             weak,
-            surplus,
-            implied,
             suggest,
             write,
             explain,

@@ -15,7 +15,7 @@ def test_every_call_is_limited() -> None:
     verdict = viewcert.verify(graph)
     with viewcert.limits(time_limit=0):
         for call in (
-            lambda: viewcert.surplus(verdict),
+            lambda: viewcert.weak(verdict),
             lambda: viewcert.verify(graph),
             lambda: list(viewcert.catalog(9)),
         ):
@@ -50,7 +50,7 @@ def test_progress_of_what_has_no_argument_for_it() -> None:
         told.append((what, done, total))
 
     with viewcert.limits(progress=tell):
-        viewcert.surplus(verdict)
+        viewcert.weak(verdict)
     assert told
     assert all(done <= total or total == 0 for _, done, total in told)
 
@@ -60,7 +60,7 @@ def test_a_callback_that_raises_stops_the_work() -> None:
         raise KeyError(what)
 
     with viewcert.limits(progress=stop), pytest.raises(KeyError):
-        viewcert.surplus(nx.gnm_random_graph(60, 150, seed=3))
+        viewcert.weak(nx.gnm_random_graph(60, 150, seed=3))
 
 
 def test_it_holds_for_one_thread() -> None:

@@ -117,7 +117,6 @@ def test_what_cannot_be_asked_names_the_argument(tmp_path: pathlib.Path) -> None
         (lambda: viewcert.weak(triangle, of="edges"), "of='edges': give 'pairs' or 'images'"),
         (lambda: viewcert.suggest(triangle, 0), "most=0: give an integer from 1"),
         (lambda: viewcert.suggest(triangle, "3"), "most='3': give an integer"),  # type: ignore[arg-type]
-        (lambda: viewcert.implied(triangle, -1), "most=-1: give an integer from 0"),
         (lambda: viewcert.explain(triangle, [0]), r"\[0\] is no node of the graph"),
         (lambda: viewcert.verify_all(viewcert.Graph(triangle)), "give a list of graphs"),  # type: ignore[call-overload]
         (lambda: viewcert.at_cameras(triangle, tmp_path / "no.txt"), "no.txt: No such file or directory$"),

@@ -20,7 +20,6 @@ pub mod misfit;
 pub mod named;
 pub mod parts;
 pub mod priors;
-pub mod redundancy;
 pub mod request;
 pub mod split;
 pub mod suggest;
@@ -40,7 +39,6 @@ pub use foreseen::{Tracks, foreseen};
 pub use joints::{How, Joint, Joints, Shapes, joints};
 pub use named::Advice;
 pub use parts::{Part, Parts};
-pub use redundancy::{Surplus, surplus};
 pub use request::Request;
 pub use suggest::{
     Candidate, Near, Nearness, Reason, SuggestedMatch, Suggestion, Tried, gap, suggest,

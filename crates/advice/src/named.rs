@@ -1,7 +1,6 @@
 //! What was found, in the user's names: the members of `verify --json` (docs/reconstruction.md).
 //! Components are counted from 1 here, as in the text.
 
-use crate::redundancy::{Implied, Surpluses};
 use serde::Serialize;
 use viewcert_formats::NamedGraph;
 
@@ -24,12 +23,6 @@ pub struct Advice {
     /// What components hang on.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub weak: Option<Weak>,
-    /// Which pairs the rest checks.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub surplus: Option<Surpluses>,
-    /// Pairs that are determined though never matched.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub implied: Option<Implied>,
     /// Pairs that would join components.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub suggestions: Option<Vec<Suggestion>>,

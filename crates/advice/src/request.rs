@@ -16,10 +16,6 @@ use viewcert_session::Outputs;
 pub struct Request {
     /// What a component hangs on.
     pub weak: Option<Weak>,
-    /// How much of each pair the rest checks.
-    pub surplus: bool,
-    /// Pairs that are determined though never matched; so many are listed at most.
-    pub implied: Option<u32>,
     /// Pairs that would join components, so many at most; with tracks also how much has to come of it.
     pub suggest: Option<u32>,
     /// The file that gets those of them that are left to match, as COLMAP takes them.
@@ -56,8 +52,6 @@ impl Request {
     fn asked_of_pairs(&self) -> impl Iterator<Item = &'static str> {
         let asked = [
             (self.weak.is_some(), "--weak"),
-            (self.surplus, "--surplus"),
-            (self.implied.is_some(), "--implied"),
             (self.suggest.is_some(), "--suggest"),
             (self.explain.is_some(), "--explain"),
         ];
@@ -135,12 +129,6 @@ impl Request {
         let (mut advice, joints) = task.joints(shapes)?;
         if let Some(what) = self.weak {
             advice.weak = Some(task.weak(what)?);
-        }
-        if self.surplus {
-            advice.surplus = Some(task.surplus()?);
-        }
-        if let Some(most) = self.implied {
-            advice.implied = Some(task.implied(most as usize)?);
         }
         if let Some(most) = self.suggest {
             let found = task.suggest(&joints, most as usize, None)?;

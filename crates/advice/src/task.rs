@@ -10,7 +10,7 @@ use anyhow::{Context, Result};
 use std::collections::BTreeMap;
 use viewcert::decide::{Options, Question};
 use viewcert::watch::Watch;
-use viewcert::{Strength, Verdict};
+use viewcert::{Model, Strength, Value, Verdict};
 use viewcert_formats::NamedGraph;
 
 /// What a component may hang on.
@@ -167,7 +167,10 @@ impl<'a> Task<'a> {
                 (Weak::Images, None) => "images",
                 (Weak::Images, Some(_)) => "cameras and points",
             },
-            kept: self.kept(),
+            kept: match self.verdict.model {
+                Model::Projective => Value::FiniteSolvable.name(),
+                Model::Calibrated | Model::Affine => Value::Solvable.name(),
+            },
             items,
             single_pairs: self.parts.links.len(),
         })

@@ -8,11 +8,10 @@
 
 mod decisions;
 mod halves;
-pub(crate) mod left_out;
+mod left_out;
 
 use crate::condensation::{Condensation, terminals, without};
 use crate::parts::{Alone, Parts};
-pub(crate) use decisions::by_distance;
 use halves::Sorted;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -130,7 +129,7 @@ pub fn weak_images(
 type Pair = (u32, u32);
 
 /// The weak pairs of a component with three nodes or more, increasing.
-pub(crate) fn pairs_of(
+fn pairs_of(
     graph: &Graph,
     options: &Options,
 ) -> Result<Vec<(Pair, Why, Strength)>, VerdictError> {
@@ -166,7 +165,7 @@ pub(crate) fn pairs_of(
 
 /// The pairs that a contraction uses, and those that it leaves loose, increasing: every other pair
 /// joins two nodes of a body that stands without it.
-pub(crate) fn used(contraction: &Contraction) -> Vec<Pair> {
+fn used(contraction: &Contraction) -> Vec<Pair> {
     let mut used: BTreeSet<Pair> = contraction.loose.iter().copied().collect();
     let ordered = |a: u32, b: u32| (a.min(b), a.max(b));
     for body in &contraction.bodies {
@@ -201,7 +200,7 @@ fn thinned(graph: &Graph, model: Model) -> Graph {
     Graph::new(graph.nodes() as u32, kept).expect("edges of a graph")
 }
 
-pub(crate) fn check(graph: &Graph, options: &Options) -> Result<(), VerdictError> {
+fn check(graph: &Graph, options: &Options) -> Result<(), VerdictError> {
     Ok(options
         .watch
         .task(Step::Contraction, graph.nodes())
@@ -209,20 +208,20 @@ pub(crate) fn check(graph: &Graph, options: &Options) -> Result<(), VerdictError
 }
 
 /// The nodes of every final body, increasing.
-pub(crate) fn final_nodes(contraction: &Contraction) -> impl Iterator<Item = &[u32]> + Clone {
+fn final_nodes(contraction: &Contraction) -> impl Iterator<Item = &[u32]> + Clone {
     let finals = contraction.finals.iter();
     finals.map(|&body| &contraction.bodies[body as usize].nodes[..])
 }
 
 /// For every node the final bodies that it lies in, by their place in the list.
-pub(crate) fn bodies_of_nodes(contraction: &Contraction, nodes: usize) -> Lists {
+fn bodies_of_nodes(contraction: &Contraction, nodes: usize) -> Lists {
     let of_node = (0..).zip(final_nodes(contraction));
     let of_node = of_node.flat_map(|(k, nodes): (u32, _)| nodes.iter().map(move |&v| (v, k)));
     Lists::group(nodes, of_node)
 }
 
 /// Whether one body holds both ends.
-pub(crate) fn is_in_one(bodies: &Lists, (a, b): Pair) -> bool {
+fn is_in_one(bodies: &Lists, (a, b): Pair) -> bool {
     let other = bodies.of(b as usize);
     let mut one = bodies.of(a as usize).iter();
     one.any(|k| other.binary_search(k).is_ok())
@@ -255,7 +254,7 @@ fn decided(
 }
 
 /// The weak images of a component with three nodes or more, increasing.
-pub(crate) fn images_of(
+fn images_of(
     graph: &Graph,
     options: &Options,
 ) -> Result<Vec<(u32, Why, Strength)>, VerdictError> {

@@ -1,6 +1,5 @@
 //! What was found, in a few lines for people.
 
-use crate::redundancy;
 use crate::shown::{SHOWN, rest};
 use std::io::{self, Write};
 use viewcert::wording::counted;
@@ -17,7 +16,6 @@ pub fn write(out: &mut impl Write, advice: &Advice) -> io::Result<()> {
     if let Some(found) = &advice.weak {
         weak(out, found, advice.single_pairs_only)?;
     }
-    redundancy::write(out, advice)?;
     if let Some(found) = &advice.suggestions {
         let joined = "if these images really overlap, matching them joins components: proved";
         let count = match advice.is_whole {

@@ -27,7 +27,6 @@ pub mod own_frame;
 mod page;
 mod part_names;
 pub mod priors;
-mod redundancy;
 pub mod scene;
 pub mod screen;
 mod shown;

@@ -292,10 +292,10 @@ fn of_no_database(file: &File, found: &Overview) -> Next {
             vec![file.verify(
                 "advise",
                 &[],
-                &["--model", "calibrated", "--surplus"],
-                "says which pairs the rest checks",
+                &["--model", "calibrated", "--weak"],
+                "says without which pairs something falls apart",
             )],
-            "the pairs in which an error would not show",
+            "the pairs that everything hangs on: match their images with more neighbours",
         ),
         (None, false) => (
             vec![file.verify(

@@ -101,18 +101,6 @@ class Export(Generic[N]):
     commands: Tuple[Tuple[str, ...], ...]
 
 
-@dataclass(frozen=True)
-class Implied(Generic[N]):
-    """Pairs that are determined though they are not in the graph, up to finitely many values."""
-
-    count: Annotated[int, "How many there are; of a camera-point graph pairs of cameras."]
-    beyond_components: Annotated[int, "How many of them no component holds."]
-    pairs: Annotated[Tuple[Tuple[N, N], ...], "The first of them."]
-    unique: Annotated[bool, "Whether each is proved to have one value. Otherwise to add one may leave fewer solutions."]
-    strength: Annotated[Strength, "How strong it is that these are determined."]
-    complete: Annotated[Strength, "How strong it is that no others are."]
-
-
 def _decided(verdict: Any) -> Verdict[Any]:
     return verdict if isinstance(verdict, Verdict) else verify(verdict)
 
@@ -163,75 +151,6 @@ def weak(verdict: Any, of: Lost = "pairs") -> List[Weak[Any]]:
         of_said(Weak, item, nodes=tuple(by_text[text] for text in item["images"]), component=item["component"] - 1)
         for item in _asked(verdict, "weak", weak=of)["items"]
     ]
-
-
-@overload
-def surplus(verdict: Given[N]) -> Dict[Tuple[N, N], Dict[str, Any]]: ...
-@overload
-def surplus(verdict: Other) -> Dict[Tuple[Any, Any], Dict[str, Any]]: ...
-def surplus(verdict: Any) -> Dict[Tuple[Any, Any], Dict[str, Any]]:
-    """In how many of its equations the rest of the graph checks each pair.
-
-    Parameters
-    ----------
-    verdict : Verdict
-        Or a graph, which is decided first.
-
-    Returns
-    -------
-    dict
-        For every pair ``surplus`` (0: an error in these equations cannot be seen by anyone), ``full``
-        (how many equations there are: 7, affine 4, calibrated 2, those of the direction alone: loops
-        of pairs check rotations) and ``strength`` (``'proof'`` or
-        ``'error-bound'``), as :func:`networkx.set_edge_attributes` takes them.
-
-    Examples
-    --------
-    >>> import viewcert
-    >>> found = viewcert.surplus([(0, 1), (0, 2), (1, 2), (2, 3)])
-    >>> found[0, 1]["surplus"], found[2, 3]["surplus"]
-    (3, 0)
-    """
-    verdict = _decided(verdict)
-    by_text = verdict.graph._by_text()
-    found = _asked(verdict, "surplus", surplus=True)
-    full = found["full"]
-    pairs: Dict[Tuple[Any, Any], Dict[str, Any]] = {
-        pair: {"surplus": full, "full": full, "strength": "proof"} for pair in verdict.graph.pairs
-    }
-    for item in found["items"]:
-        a, b = (by_text[text] for text in item["images"])
-        pair = (a, b) if (a, b) in pairs else (b, a)
-        pairs[pair].update(surplus=item["surplus"], strength=item["strength"])
-    return pairs
-
-
-@overload
-def implied(verdict: Given[N], most: int = ...) -> Implied[N]: ...
-@overload
-def implied(verdict: Other, most: int = ...) -> Implied[Any]: ...
-def implied(verdict: Any, most: int = 1000) -> Implied[Any]:
-    """The pairs that are determined though they are not in the graph, up to finitely many values.
-
-    Parameters
-    ----------
-    verdict : Verdict
-        Or a graph, which is decided first.
-    most : int
-        How many are listed.
-
-    Examples
-    --------
-    >>> import viewcert
-    >>> found = viewcert.implied([(0, 1), (0, 2), (1, 2), (1, 3), (2, 3)])
-    >>> found.count, found.pairs
-    (1, ((0, 3),))
-    """
-    most = whole("most", most, 0, 2**32 - 1)
-    verdict = _decided(verdict)
-    by_text = verdict.graph._by_text()
-    found = _asked(verdict, "implied", implied=most)
-    return of_said(Implied, found, pairs=tuple((by_text[a], by_text[b]) for a, b in found["pairs"]))
 
 
 class _Suggestions(List[Suggestion[N]]):

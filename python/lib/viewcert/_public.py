@@ -5,7 +5,7 @@ from dataclasses import is_dataclass as _is_dataclass
 
 from . import examples
 from ._act import (
-    Explanation, Export, Implied, Outside, Suggestion, Unused, Weak, explain, export, implied, suggest, surplus, weak,
+    Explanation, Export, Outside, Suggestion, Unused, Weak, explain, export, suggest, weak,
 )
 from ._all import verify_all
 from ._answers import described as _described
@@ -29,12 +29,12 @@ from ._witness import Witness, fundamental_matrix, witness
 
 __all__ = [
     "Archive", "AtCameras", "Audit", "BaseLines", "Contradictions", "Entry", "Error", "Explanation", "Export",
-    "FloatRuling", "Graph", "Growth", "Implied", "InputError", "Intrinsics", "Joint", "Mended", "NotVerified",
+    "FloatRuling", "Graph", "Growth", "InputError", "Intrinsics", "Joint", "Mended", "NotVerified",
     "NoteWarning", "Outside", "Overview", "Planar", "Prior", "Priors", "Rejected", "Report", "Ruling", "SingularValue",
     "Solutions", "Special", "Suggestion", "TooLarge", "Undecided", "Unused", "Verdict", "Verified", "Verifier", "Weak",
     "Witness", "__version__", "at_cameras", "audit", "audit_claims", "catalog", "check", "check_all", "contradictions",
-    "examples", "explain", "export", "from_database", "from_label", "fundamental_matrix", "implied", "intrinsics",
-    "label", "limits", "lists", "mend", "merge", "overview", "read", "suggest", "surplus", "tracks_from_database",
+    "examples", "explain", "export", "from_database", "from_label", "fundamental_matrix", "intrinsics",
+    "label", "limits", "lists", "mend", "merge", "overview", "read", "suggest", "tracks_from_database",
     "tracks_from_reconstruction", "verify", "verify_all", "weak", "witness",
 ]
 

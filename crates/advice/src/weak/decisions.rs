@@ -125,7 +125,7 @@ fn search_images(
 
 /// Where each node comes in a search by distance, from one of those farthest from node 0 in its
 /// connected part.
-pub(crate) fn by_distance(graph: &Graph) -> Vec<u32> {
+fn by_distance(graph: &Graph) -> Vec<u32> {
     const NONE: u32 = u32::MAX;
     let neighbours = Adjacency::new(graph);
     let nodes = graph.nodes() as u32;

@@ -24,7 +24,7 @@ const NONE: u32 = u32::MAX;
 ///
 /// # Errors
 /// If the work is stopped.
-pub(crate) fn not_cleared(
+pub(super) fn not_cleared(
     graph: &Graph,
     mut pairs: Vec<Pair>,
     options: &Options,

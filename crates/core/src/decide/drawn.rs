@@ -14,7 +14,6 @@ use crate::geometry::draw::DrawKey;
 use crate::geometry::model::Model;
 use crate::geometry::plane_flow;
 use crate::geometry::plane_flow::{Lambda, PlaneFlowRank, PlaneFlows};
-use crate::linalg::Ring;
 use crate::linalg::prime::PrimeField;
 use crate::watch::{Step, Stopped, Watch};
 
@@ -57,61 +56,6 @@ impl Centres {
             values,
             key: DrawKey { draw, ..key },
         }
-    }
-}
-
-/// A motion of a core.
-pub(super) struct Moved<'a> {
-    at: &'a Centres,
-    /// As [`Motion::by_node`](plane_flow::Motion::by_node).
-    entries: Vec<u64>,
-    /// For every edge of the core its X_e, row by row, normalised as in section 6.
-    pub(super) transforms: Vec<[u64; 16]>,
-}
-
-impl Moved<'_> {
-    /// Column k of dP_v.
-    fn column(&self, v: usize, k: usize) -> [u64; 3] {
-        std::array::from_fn(|r| self.entries[12 * v + 3 * k + r])
-    }
-
-    /// Whether the equations of a pair hold: its matrix in (2.1) is skew-symmetric.
-    pub(super) fn keeps(&self, a: usize, b: usize) -> bool {
-        let field = &self.at.field;
-        let [p, q] = [a, b].map(|v| &self.at.values[v]);
-        let d: [u64; 3] = std::array::from_fn(|r| field.sub(&p[r], &q[r]));
-        let columns: [[u64; 4]; 4] = std::array::from_fn(|k| {
-            let (one, other) = (self.column(a, k), self.column(b, k));
-            let y: [u64; 3] = std::array::from_fn(|r| field.sub(&one[r], &other[r]));
-            let cross =
-                |r: usize, s: usize| field.sub(&field.mul(&d[r], &y[s]), &field.mul(&d[s], &y[r]));
-            let top = [cross(1, 2), cross(2, 0), cross(0, 1)];
-            let last = field.neg(&field.dot(0, &top, p));
-            [top[0], top[1], top[2], last]
-        });
-        (0..4).all(|r| (r..4).all(|k| field.add(&columns[k][r], &columns[r][k]) == 0))
-    }
-
-    /// Whether a node moves as an edge does: dP_v = P_v X + mu P_v for some mu.
-    pub(super) fn follows(&self, v: usize, transform: &[u64; 16]) -> bool {
-        let field = &self.at.field;
-        let centre = &self.at.values[v];
-        let entry = |r: usize, k: usize| {
-            let moved = field.mul(&centre[r], &transform[12 + k]);
-            let carried = field.sub(&transform[4 * r + k], &moved);
-            field.sub(&self.column(v, k)[r], &carried)
-        };
-        let mu = entry(0, 0);
-        (0..3).all(|r| {
-            (0..4).all(|k| {
-                let own = match k {
-                    3 => field.neg(&field.mul(&mu, &centre[r])),
-                    _ if k == r => mu,
-                    _ => 0,
-                };
-                entry(r, k) == own
-            })
-        })
     }
 }
 
@@ -203,19 +147,6 @@ impl<'a> Ranks<'a> {
             .flows
             .calibrated_motion(self.at.key.residues(&self.at.field));
         transforms.iter().map(|&[scale, ..]| scale).collect()
-    }
-
-    /// Whether a random motion of the core leaves the fundamental matrix of two of its nodes as it is,
-    /// for every pair, and how it moves nodes and edges; `None` where [`separate`](Self::separate)
-    /// shows nothing, and in the calibrated model.
-    pub(super) fn motion(&self) -> Option<Moved<'_>> {
-        let mut random = self.at.key.residues(&self.at.field);
-        let motion = self.flows.motion(self.lambda.as_ref()?, &mut random)?;
-        Some(Moved {
-            at: self.at,
-            entries: motion.by_node(),
-            transforms: motion.transforms,
-        })
     }
 
     /// The motion classes of the members that have this core (Theorem 6.4, calibrated 6.8), and

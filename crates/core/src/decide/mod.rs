@@ -24,8 +24,8 @@
 //! pieces are in `one_piece` and `walk`, bodies that ranks give before in `bodies_by_rank`, their ranks at some
 //! centres in `drawn`, classes in `motion_class`, bounds in `counting`, the
 //! paper's own matrix (`--method matrix`, `--rational`) in `whole_matrix`, the number of solutions in
-//! `rounds`, `stressed` and `solution_count`. What unknown base lines that frames share add to it is in `base_lines`; what a decided
-//! graph can notice (section 15) in `redundancy`. What is asked is in `question`, with what it is decided in
+//! `rounds`, `stressed` and `solution_count`. What unknown base lines that frames share add to it is in `base_lines`.
+//! What is asked is in `question`, with what it is decided in
 //! `options`, what is found in [`evidence`], what comes out in `verdict`.
 
 pub mod evidence;
@@ -42,7 +42,6 @@ mod options;
 mod own_frame;
 mod plane_piece;
 mod question;
-mod redundancy;
 mod rounds;
 mod solution_count;
 mod stressed;
@@ -64,7 +63,6 @@ pub(crate) use own_frame::OwnFrameEvidence;
 pub use own_frame::{OwnFrame, TurningPart};
 pub use plane_piece::{plane_rank, rank_in_plane};
 pub use question::{Arithmetic, CountSolutions, Known, Meaningless, Question};
-pub use redundancy::{Closure, Groups, closure, groups};
 pub use rounds::{Joined, Round, Rounds};
 pub use solution_count::SolutionCount;
 pub use verdict::{Component, UnknownValue, Value, Verdict};

@@ -70,11 +70,6 @@ impl<'a> Stresses<'a> {
         })
     }
 
-    /// How many there are: 7 m - rank J_P.
-    pub(super) fn dimension(&self) -> usize {
-        self.dimension
-    }
-
     /// The finest partition of the members such that the stresses are the direct sum of those of its
     /// parts, as the number of each member's part: then the rank is the sum of the parts' ranks
     /// (Lemma 5.12), so a bound that meets it is a sum of bounds that do. A member that sees no
@@ -150,7 +145,7 @@ mod tests {
         let stresses =
             unwatched(|task| Stresses::new(&field, &core, pairs.len(), &mut random, task));
         // Each has 6 edges of rank 40 = 11 * 5 - 15 in all, and what comes together is dependent too.
-        assert_eq!(stresses.dimension(), 7 * pairs.len() - rank(11, &pairs));
+        assert_eq!(stresses.dimension, 7 * pairs.len() - rank(11, &pairs));
         let parts = stresses.parts();
         for (k, &(i, j)) in core.graph.edges().iter().enumerate() {
             for (l, &(u, v)) in core.graph.edges().iter().enumerate() {

@@ -63,27 +63,4 @@ impl Blocks {
         }
         self.add(nodes);
     }
-
-    /// Adds a block with all nodes of the blocks that share two nodes with it, or with what it has
-    /// become, in their place.
-    pub(super) fn merge(&mut self, mut nodes: Vec<u32>) {
-        let mut inside: HashSet<u32> = nodes.iter().copied().collect();
-        let mut shared: HashMap<u32, u32> = HashMap::new();
-        let mut next = 0;
-        while let Some(&v) = nodes.get(next) {
-            next += 1;
-            let gone = &self.nodes;
-            self.of[v as usize].retain(|&block| !gone[block as usize].is_empty());
-            for k in 0..self.of[v as usize].len() {
-                let block = self.of[v as usize][k];
-                let count = shared.entry(block).or_default();
-                *count += 1;
-                if *count == 2 {
-                    let taken = std::mem::take(&mut self.nodes[block as usize]);
-                    nodes.extend(taken.into_iter().filter(|&w| inside.insert(w)));
-                }
-            }
-        }
-        self.add(&nodes);
-    }
 }

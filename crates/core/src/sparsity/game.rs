@@ -154,31 +154,6 @@ impl<const K: usize, const L: usize> PebbleGame<K, L> {
         }
     }
 
-    /// The nodes of the smallest tight set that holds two nodes, which have to be in a tight set
-    /// together, in no particular order.
-    ///
-    /// With L pebbles on the two nodes no edge leaves a tight set that holds them, so all that they
-    /// lead to is in it; and no other node there has a free pebble, so that this is tight itself.
-    pub(super) fn smallest(&mut self, u: u32, v: u32) -> Vec<u32> {
-        assert!(self.gather(u, v, L), "L pebbles come anywhere");
-        self.search.begin();
-        let mut found = vec![u, v];
-        found.iter().for_each(|&w| {
-            self.search.visit(w);
-        });
-        let mut next = 0;
-        while let Some(&at) = found.get(next) {
-            next += 1;
-            for k in 0..self.heads(at).len() {
-                let head = self.paid[at as usize][k];
-                if self.search.visit(head) {
-                    found.push(head);
-                }
-            }
-        }
-        found
-    }
-
     /// The nodes of the largest tight set that holds two nodes, which have to be in a tight set
     /// together (as the ends of an edge with all its copies, or of one that was refused).
     ///

@@ -6,12 +6,9 @@
 //! arithmetic: pebble games.
 
 mod blocks;
-mod circuits;
 mod game;
 #[cfg(test)]
 mod tests;
-
-pub use circuits::groups;
 
 use crate::graph::Graph;
 use crate::watch::{Stopped, Task};

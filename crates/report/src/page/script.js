@@ -687,66 +687,8 @@
     intrinsics: "Intrinsics",
     planar: "If all centres lie in one plane",
     tracks: "Tracks",
-    export: "Export",
-    parts: "Known parts",
-    weak: "Weak places",
-    surplus: "What the rest checks",
-    redundant: "What may be lost",
-    implied: "Determined though not there",
     suggestions: "What would join components",
-    explain: "Explanation",
-  };
-  // What components hang on: a sentence, and the list.
-  const weakPart = (id, { of, kept, items, single_pairs: single }) => {
-    const section = html("section", { id }, html("h2", {}, TITLES.weak));
-    const others = kept === "solvable" ? "" : " Without any other one it stays finite solvable, if not unique.";
-    const rest = others + (single > 0
-      ? ` Not among them: ${counted(single, `single ${edgeWord}`)}, on which no larger component rests.` : "");
-    const said = items.length > 0 ? `Without any one of these ${of} a component falls apart.` : `No ${of} are weak.`;
-    if (items.length > 0) objectsTable(section, said + rest, items);
-    else section.append(html("p", {}, said + rest));
-    return section;
-  };
-  // In how many equations the rest checks each pair: a sentence, lines over the picture, from red (in
-  // none) to yellow, and the list in the same colours.
-  const surplusPart = (id, { of, equations_of: equations, full, checked, items, groups }) => {
-    const section = html("section", { id }, html("h2", {}, TITLES.surplus));
-    const blind = items.filter((item) => item.surplus === 0).length;
-    const said = [`${counted(checked, edgeWord)} of ${grouped(report.graph.edges)} are checked by the rest in all ${full} equations of their ${equations}.`,
-      equations === "fundamental matrix" && checked > 0 ? "By the rest each of these has finitely many values, if not one: a small error shows." : "",
-      blind > 0 ? `${counted(blind, edgeWord)} are checked in none: an error in this ${equations} cannot be seen by anyone.` : "",
-      equations === "direction" && of === "pairs" ? "Loops of pairs check rotations." : "",
-      groups && groups.count > 0
-        ? `${counted(groups.count, "group")} of ${of} check each other and nothing else; the largest has ${grouped(groups.larger[0].pairs)} of them.`
-        : ""].filter(Boolean).join(" ");
-    const pairOf = (item) => item.images.join(" – ");
-    const strengthOf = (item) => told("strength", item.strength);
-    const colour = (surplus) => `hsl(${Math.round(60 * surplus / full)} 90% 45%)`;
-    const lines = svg("g", { class: "surplus", "aria-hidden": "true", fill: "none", "stroke-width": 2.5 });
-    for (let surplus = 0; surplus < full; surplus += 1) {
-      const ends = items.filter((item) => item.surplus === surplus)
-        .map(({ images }) => images.map((name) => drawn.get(nodeOf.get(name))))
-        .filter((both) => both.every(Boolean));
-      const path = ends.map((both) => both.map(place)).map(([[x, y], [a, b]]) => `M${x} ${y}L${a} ${b}`).join("");
-      if (path) lines.append(svg("path", { d: path, stroke: colour(surplus), "data-surplus": surplus }));
-    }
-    picture.insertBefore(lines, overlay);
-    if (items.length > 0) {
-      table(section, `${said} All others, in the colours of their lines in the picture.`, [
-        { title: edgeWord, value: pairOf, show: pairOf },
-        {
-          title: "surplus",
-          number: true,
-          value: (item) => item.surplus,
-          show: (item) => html("span", { style: `border-left: .6em solid ${colour(item.surplus)}; padding-left: .4em` },
-            `${item.surplus} of ${full}`),
-        },
-        { title: "strength", value: strengthOf, show: strengthOf },
-      ], items);
-    } else {
-      section.append(html("p", {}, said));
-    }
-    return section;
+    parts: "Known parts",
   };
   // Which intrinsics are determined: over the picture pairs in the colours of their metric components, grey
   // if they are in none, and a ring round each camera, dashed if its intrinsics are not determined.
@@ -812,24 +754,10 @@
         { title: "image", value: (node) => names[node], show: cameraButton },
       ], [...open]);
     }
-    if (found.priors?.each.length > 0) {
-      const labels = (prior) => (prior.labels.length === 1 ? prior.labels[0]
-        : `${prior.labels[0]} .. ${prior.labels.at(-1)} (one sensor, ${counted(prior.labels.length, "image")})`);
-      table(section, "What one more calibrated camera determines, the best first.", [
-        { title: "camera", value: labels, show: labels },
-        { title: "unknown now", value: (prior) => prior.class, show: (prior) => prior.class },
-        { title: "then", value: (prior) => prior.verdict, show: (prior) => prior.verdict },
-        { title: "intrinsics determined", number: true, value: (prior) => prior.determined, show: (prior) => grouped(prior.determined) },
-        { title: "besides its own", number: true, value: (prior) => prior.others, show: (prior) => grouped(prior.others) },
-        { title: "largest metric component", number: true, value: (prior) => prior.largest, show: (prior) => grouped(prior.largest) },
-      ], found.priors.each);
-    }
     return section;
   };
   const partOf = (name, value) => {
     const id = `part-${name}`;
-    if (name === "weak" && Array.isArray(value.items)) return weakPart(id, value);
-    if (name === "surplus" && Array.isArray(value.items)) return surplusPart(id, value);
     if (name === "intrinsics" && Array.isArray(value.classes)) return intrinsicsPart(id, value);
     return part(id, TITLES[name] ?? named(name), value);
   };
