@@ -17,8 +17,8 @@ use viewcert::decide as verdict;
 use viewcert::decide::{CountSolutions, Prime, Verdict};
 use viewcert::intrinsics::{Certified, Sensors};
 use viewcert::watch::Watch;
+use viewcert_advice::Advice;
 use viewcert_advice::priors::Priors;
-use viewcert_advice::{Advice, Shapes};
 use viewcert_formats::NamedGraph;
 use viewcert_report::assumptions::{BaseLines, Scope, out_of_planes};
 use viewcert_report::at_cameras::HereReport;
@@ -45,7 +45,6 @@ pub(super) fn run(session: &Session, plan: &Plan) -> Result<u8> {
         session,
         plan,
         target: plan.target(),
-        shapes: Shapes::default(),
         table: table.transpose().context("standard output")?,
     };
     let too_many = |what: &str| plan.too_many(what);
@@ -159,8 +158,6 @@ struct Work<'a> {
     session: &'a Session,
     plan: &'a Plan,
     target: Option<Target>,
-    /// Joints of the graphs before.
-    shapes: Shapes,
     table: Option<Table>,
 }
 
@@ -341,7 +338,7 @@ impl Work<'_> {
         }
         let (outputs, watch) = (self.session.outputs(), self.session.watch());
         let (request, seed) = (&self.plan.request, self.plan.seed);
-        request.advise(outputs, input, verdict, seed, &mut self.shapes, watch)
+        request.advise(outputs, input, verdict, seed, watch)
     }
 }
 

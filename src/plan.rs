@@ -261,7 +261,7 @@ impl Plan {
         let is_folder = files[0].1.is_some_and(Path::is_dir);
         let from = usize::from(is_folder);
         outputs::ensure_apart(&files[from..], inputs)?;
-        self.request.check(&self.graphs, &files)?;
+        self.request.check()?;
         given::ensure_one_standard_input(given::OPTION, self.given.as_deref(), &self.graphs)?;
         given::ensure_one_standard_input(INTRINSICS, self.intrinsics_file(), &self.graphs)
     }

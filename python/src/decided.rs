@@ -17,7 +17,7 @@ use viewcert::linalg::prime::PrimeField;
 use viewcert::watch::Watch;
 use viewcert::{Arithmetic, CountSolutions, Known, Model, Options, Prime, Verdict};
 use viewcert_advice::priors::Priors;
-use viewcert_advice::{Request, Shapes, Weak};
+use viewcert_advice::{Request, Weak};
 use viewcert_formats::{NamedGraph, NamedParts, given, with_rigs};
 use viewcert_report::Report;
 use viewcert_report::assumptions::{self, BaseLines, Scope};
@@ -474,7 +474,7 @@ impl Decided {
         let (input, verdict) = self.answer();
         let (kind, stop) = (kind.to_owned(), job.watch());
         let answer = move || -> anyhow::Result<Vec<u8>> {
-            request.check(&[], &[])?;
+            request.check()?;
             let mut scope = Scope::new(&input, &verdict, asked, &stop)?;
             if let Some(sensors) = sensors {
                 let found = Metric::with_sensors(&input.graph, &verdict, &sensors, seed, &stop)?;
@@ -495,8 +495,7 @@ impl Decided {
                 request.ensure_alone("base lines that frames share")?;
             }
             let outputs = Outputs::default();
-            let mut shapes = Shapes::default();
-            let advice = request.advise(&outputs, &input, verdict, seed, &mut shapes, stop)?;
+            let advice = request.advise(&outputs, &input, verdict, seed, stop)?;
             let report = Report {
                 input: &input,
                 verdict,

@@ -2,7 +2,6 @@
 //! (docs/theory.md, Theorem 4.4; 4.11 in the calibrated model, 13.18 with known displacements).
 
 use crate::parts::Parts;
-use std::collections::HashMap;
 use viewcert::decide::{Options, Verdict, VerdictError, decide};
 use viewcert::graph::Displacements;
 use viewcert::{Graph, Strength};
@@ -86,26 +85,6 @@ impl Condensation {
     ) -> Result<(usize, Strength), VerdictError> {
         let verdict = decide(&with(&self.graph, more), &self.options(options))?;
         Ok((shortfall(&verdict), verdict.rank_claim().strength))
-    }
-
-    /// The same with some nodes in the place of others, pair by pair: two nodes become one.
-    pub(crate) fn merged(&self, nodes: &[(u32, u32)]) -> Self {
-        let pairs = nodes.iter().map(|&pair| self.pair(pair));
-        let one: HashMap<u32, u32> = pairs.map(|(a, b)| (b, a)).collect();
-        let of = |v: u32| one.get(&v).copied().unwrap_or(v);
-        let edges = self.graph.edges().iter().map(|&(i, j)| (of(i), of(j)));
-        let graph = Graph::new(self.nodes.len() as u32, edges);
-        let terminals = self.terminals.iter().map(|part| {
-            let mut part: Vec<u32> = part.iter().map(|&v| of(v)).collect();
-            part.sort_unstable();
-            part
-        });
-        Self {
-            nodes: self.nodes.clone(),
-            graph: graph.expect("the nodes of no edge become one"),
-            terminals: terminals.collect(),
-            known: self.known.iter().map(|&(i, j)| (of(i), of(j))).collect(),
-        }
     }
 
     /// The number of a node, if it is here.

@@ -1,7 +1,7 @@
 //! Components as files that COLMAP takes, tables of them, and the commands that come next.
 
-use crate::folder::{ensure_own, is_called, paths};
-use crate::named::{Export, Joint, ToMatch};
+use crate::folder::ensure_new;
+use crate::named::{Export, ToMatch};
 use crate::task::{Task, number};
 use anyhow::{Result, ensure};
 use std::collections::BTreeSet;
@@ -12,11 +12,8 @@ use viewcert::wording::printable;
 use viewcert_session::{Outputs, outputs};
 
 const COMPONENTS: &str = "components";
-const TABLES: [&str; 3] = ["components.tsv", "images.tsv", "joints.tsv"];
+const TABLES: [&str; 2] = ["components.tsv", "images.tsv"];
 const LISTS: [&str; 2] = ["images.txt", "pairs.txt"];
-
-/// The first line of components.tsv, by which an earlier export is known.
-const HEAD: [&str; 5] = ["component", "images", "points", "pairs", "folder"];
 
 /// Most names in a message.
 const NAMED: usize = 5;
@@ -29,43 +26,12 @@ struct Exported {
     pairs: Vec<(u32, u32)>,
 }
 
-/// Refuses a folder that holds anything but an earlier export.
-///
-/// # Errors
-/// What is in the way.
-pub(crate) fn check(folder: &Path) -> Result<()> {
-    ensure_own("export", folder, (TABLES[0], &HEAD), |path| {
-        if is_called(path, &TABLES) && path.is_file() {
-            return Ok(None);
-        }
-        if !is_called(path, &[COMPONENTS]) || !path.is_dir() || path.is_symlink() {
-            return Ok(Some(path.to_owned()));
-        }
-        for part in paths(path)? {
-            if !part.is_dir() || part.is_symlink() {
-                return Ok(Some(part));
-            }
-            let mut files = paths(&part)?.into_iter();
-            let other = files.find(|file| !is_called(file, &LISTS) || !file.is_file());
-            if other.is_some() {
-                return Ok(other);
-            }
-        }
-        Ok(None)
-    })
-}
-
 /// Writes the folder, whole or not at all.
 ///
 /// # Errors
 /// If a name cannot be expressed, or the folder cannot be written.
-pub(crate) fn write(
-    outputs: &Outputs,
-    folder: &Path,
-    task: &Task,
-    joints: &[Joint],
-) -> Result<Export> {
-    check(folder)?;
+pub(crate) fn write(outputs: &Outputs, folder: &Path, task: &Task) -> Result<Export> {
+    ensure_new("export", folder)?;
     let exported = exported(task);
     let images: BTreeSet<u32> = exported
         .iter()
@@ -84,8 +50,7 @@ pub(crate) fn write(
             write_part(&new.join(place(part.component)), task, part)?;
         }
         write_components(&new.join(TABLES[0]), task, &exported, place)?;
-        write_images(&new.join(TABLES[1]), task)?;
-        write_joints(&new.join(TABLES[2]), joints)
+        write_images(&new.join(TABLES[1]), task)
     })?;
     let mut seen = BTreeSet::new();
     let mut shared = BTreeSet::new();
@@ -247,7 +212,7 @@ fn write_components(
     place: impl Fn(usize) -> String,
 ) -> Result<()> {
     let mut out = table(path)?;
-    out.write_record(HEAD)?;
+    out.write_record(["component", "images", "points", "pairs", "folder"])?;
     let cameras = task.names.images().end;
     let mut folders = exported.iter().peekable();
     for (k, component) in task.verdict.components.iter().enumerate() {
@@ -283,33 +248,6 @@ fn write_images(path: &Path, task: &Task) -> Result<()> {
             degree[v as usize].to_string(),
             parts.join(","),
             task.parts.links_at(v).count().to_string(),
-        ])?;
-    }
-    Ok(out.flush()?)
-}
-
-fn write_joints(path: &Path, joints: &[Joint]) -> Result<()> {
-    let mut out = table(path)?;
-    let head = [
-        "component_1",
-        "component_2",
-        "how",
-        "images",
-        "crossing",
-        "inliers",
-        "freedom",
-    ];
-    out.write_record(head)?;
-    for joint in joints {
-        let inliers = joint.inliers.iter().flatten().map(u32::to_string);
-        out.write_record([
-            joint.between[0].to_string(),
-            joint.between[1].to_string(),
-            joint.how.clone(),
-            joint.images.join(","),
-            joint.crossing.to_string(),
-            inliers.collect::<Vec<_>>().join(","),
-            joint.freedom.to_string(),
         ])?;
     }
     Ok(out.flush()?)

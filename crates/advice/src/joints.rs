@@ -2,6 +2,7 @@
 
 use crate::condensation::Condensation;
 use crate::parts::Parts;
+use std::collections::hash_map::Entry;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use viewcert::decide::{Options, VerdictError};
 use viewcert::{Graph, Strength, Verdict};
@@ -45,39 +46,23 @@ impl How {
     }
 }
 
-/// What joints of some shapes leave free, as it was found; for one model.
-///
-/// Many graphs have joints of few shapes: what was decided for one is kept for the next.
-#[derive(Clone, Debug, Default)]
-pub struct Shapes(HashMap<Vec<(u32, u32)>, (usize, Strength)>);
+/// What joints of some shapes leave free: an edge list, and behind [`KNOWN`] those of known displacement.
+type Shapes = HashMap<Vec<(u32, u32)>, (usize, Strength)>;
 
 /// Stands between the edges of a shape and those of known displacement.
 const KNOWN: (u32, u32) = (u32::MAX, u32::MAX);
 
-impl Shapes {
-    /// Most shapes that are kept.
-    const MOST: usize = 100_000;
-
-    /// What a condensed joint leaves free.
-    fn freedom(
-        &mut self,
-        condensed: &Condensation,
-        options: &Options,
-    ) -> Result<(usize, Strength), VerdictError> {
-        let mut shape = condensed.graph.edges().to_vec();
-        if !condensed.known.is_empty() {
-            shape.push(KNOWN);
-            shape.extend(&condensed.known);
-        }
-        if let Some(&known) = self.0.get(&shape) {
-            return Ok(known);
-        }
-        let found = condensed.freedom([], options)?;
-        if self.0.len() == Self::MOST {
-            self.0.clear();
-        }
-        self.0.insert(shape, found);
-        Ok(found)
+/// What a condensed joint leaves free; decided once for each shape.
+fn freedom(
+    condensed: &Condensation,
+    options: &Options,
+    shapes: &mut Shapes,
+) -> Result<(usize, Strength), VerdictError> {
+    let edges = condensed.graph.edges().iter();
+    let shape = edges.chain([&KNOWN]).chain(&condensed.known).copied();
+    match shapes.entry(shape.collect()) {
+        Entry::Occupied(known) => Ok(*known.get()),
+        Entry::Vacant(new) => Ok(*new.insert(condensed.freedom([], options)?)),
     }
 }
 
@@ -98,7 +83,7 @@ pub struct Joints {
 /// 13.17).
 ///
 /// O(n + k log k) for k places where two components meet, of which about `4 most` are looked at,
-/// and a decision of a small graph for each shape of joint that is not in `shapes` yet.
+/// and a decision of a small graph for each shape of joint.
 ///
 /// # Errors
 /// Those of [`viewcert::decide()`].
@@ -108,7 +93,6 @@ pub fn joints(
     parts: &Parts,
     options: &Options,
     most: usize,
-    shapes: &mut Shapes,
 ) -> Result<Joints, VerdictError> {
     if verdict.components.len() < 2 {
         return Ok(Joints {
@@ -121,7 +105,7 @@ pub fn joints(
     } else {
         between_parts(parts, most)
     };
-    let mut joints = Vec::new();
+    let (mut joints, mut shapes) = (Vec::new(), Shapes::new());
     for (components, how) in found.into_iter().take(most) {
         let (freedom, strength) = if how.pairs.is_empty() && how.through.is_empty() {
             let sizes = components.map(|k| verdict.components[k].node_count());
@@ -131,7 +115,7 @@ pub fn joints(
             let both = required(sizes[0] + sizes[1] - 1, scaled[0] || scaled[1]);
             (both - one - other, Strength::Proof)
         } else {
-            shapes.freedom(&condensed(parts, components, &how), options)?
+            freedom(&condensed(parts, components, &how), options, &mut shapes)?
         };
         joints.push(Joint {
             components,

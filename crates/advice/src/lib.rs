@@ -36,7 +36,7 @@ mod words;
 
 pub use explain::{Explanation, explain};
 pub use foreseen::{Tracks, foreseen};
-pub use joints::{How, Joint, Joints, Shapes, joints};
+pub use joints::{How, Joint, Joints, joints};
 pub use named::Advice;
 pub use parts::{Part, Parts};
 pub use request::Request;

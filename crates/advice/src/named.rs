@@ -186,9 +186,6 @@ pub struct Needs {
 pub struct Enough {
     /// Points that images would have to see.
     pub observations: Vec<Further>,
-    /// How many points of the one component have to become one with points of the other; null if
-    /// none can.
-    pub merged: Option<usize>,
     /// Whether the two images are matched and used.
     pub matched: bool,
 }

@@ -2,10 +2,10 @@
 
 use crate::named::Advice;
 use crate::task::{Task, Weak};
-use crate::{Shapes, export, folder};
+use crate::{export, folder};
 use anyhow::{Result, bail, ensure};
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use viewcert::Verdict;
 use viewcert::watch::Watch;
 use viewcert_formats::NamedGraph;
@@ -30,13 +30,12 @@ impl Request {
     /// Refuses what can be refused before a graph is read.
     ///
     /// # Errors
-    /// A folder with something else in it, or with an input or another output.
-    pub fn check(&self, inputs: &[PathBuf], outputs: &[(&str, Option<&Path>)]) -> Result<()> {
-        let Some(place) = self.export.as_deref() else {
-            return Ok(());
-        };
-        export::check(place)?;
-        folder::ensure_outside("export", place, inputs, outputs)
+    /// A folder with something in it.
+    pub fn check(&self) -> Result<()> {
+        match self.export.as_deref() {
+            Some(place) => folder::ensure_new("export", place),
+            None => Ok(()),
+        }
     }
 
     /// Why there cannot be several graphs, if there cannot.
@@ -85,8 +84,7 @@ impl Request {
     }
 
     /// Does what is asked for; joints are always looked for, but not with displacements that are given
-    /// as numbers, which are in no general position. What joints leave free is kept in `shapes` for the
-    /// next graph of the same model.
+    /// as numbers, which are in no general position.
     ///
     /// # Errors
     /// Those of decisions and of the folder; an image that is not there; work that was stopped.
@@ -96,7 +94,6 @@ impl Request {
         input: &NamedGraph,
         verdict: &Verdict,
         seed: u64,
-        shapes: &mut Shapes,
         watch: Watch,
     ) -> Result<Advice> {
         if let Some(option) = self.asked_of_pairs().next() {
@@ -118,7 +115,7 @@ impl Request {
             let mut advice = Advice::without_joints(verdict.components.len() < 2);
             if let Some(folder) = &self.export {
                 let task = Task::new(input, verdict, seed, watch);
-                advice.export = Some(export::write(outputs, folder, &task, &[])?);
+                advice.export = Some(export::write(outputs, folder, &task)?);
             }
             return Ok(advice);
         }
@@ -126,7 +123,7 @@ impl Request {
             return Ok(Advice::whole());
         }
         let task = Task::new(input, verdict, seed, watch);
-        let (mut advice, joints) = task.joints(shapes)?;
+        let (mut advice, joints) = task.joints()?;
         if let Some(what) = self.weak {
             advice.weak = Some(task.weak(what)?);
         }
@@ -147,7 +144,7 @@ impl Request {
             advice.explain = Some(task.explain(&joints, image)?);
         }
         if let Some(folder) = &self.export {
-            advice.export = Some(export::write(outputs, folder, &task, &advice.joints)?);
+            advice.export = Some(export::write(outputs, folder, &task)?);
         }
         Ok(advice)
     }

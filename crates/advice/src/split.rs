@@ -3,7 +3,7 @@
 //! In: a model of COLMAP, and what its observations hold at its poses ([`Held`]). Out: what is free, in words, and for each
 //! part a copy of what its images see ([`Model::of_images`]). Nothing is computed anew, and the model is not touched.
 
-use crate::folder::{ensure_outside, paths, resolved};
+use crate::folder::{ensure_new, resolved};
 use anyhow::{Result, ensure};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -101,20 +101,13 @@ fn meaning(joint: &Hinge, model: &Model, posed: &Posed) -> String {
 /// # Errors
 /// What is in the way.
 pub fn check(folder: &Path, model: &Path) -> Result<()> {
-    let name = folder.display();
-    ensure_outside("split", folder, &[model.to_owned()], &[])?;
     ensure!(
         !resolved(folder).starts_with(resolved(model)),
-        "split {name}: this is in the folder of the model, where nothing is ever written; name another \
-         folder"
+        "split {}: this is in the folder of the model, where nothing is ever written; name another \
+         folder",
+        folder.display()
     );
-    let is_free =
-        fs::symlink_metadata(folder).is_err() || paths(folder).is_ok_and(|all| all.is_empty());
-    ensure!(
-        is_free,
-        "split {name}: this is there, and no empty folder; name a new one, or remove it"
-    );
-    Ok(())
+    ensure_new("split", folder)
 }
 
 /// Writes the parts of a model into a folder, whole or not at all. A point is in a part if two of its images see it from

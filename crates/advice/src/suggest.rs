@@ -5,22 +5,20 @@
 //! guess ([`candidates`]): pairs that are known to have matches, else images that are near each other
 //! ([`nearness`]). A pair that was matched with too little coming of it is not named again ([`tried`]).
 
-use crate::joints::{How, Joint};
+use crate::joints::Joint;
 use crate::parts::Parts;
 use crate::{Known, OtherPair};
 use std::cmp::Reverse;
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, HashMap};
 use viewcert::Graph;
 use viewcert::decide::{Options, VerdictError};
 
-mod anywhere;
 pub mod candidates;
 mod matches;
 pub mod nearness;
 mod proved;
 mod search;
 mod sets;
-mod singles;
 pub mod tried;
 
 pub use candidates::{Candidate, Reason};
@@ -74,7 +72,7 @@ pub struct Wanted {
     pub at: Option<u32>,
 }
 
-/// Most pairs, joints, and hanging images that are tried.
+/// Most pairs that are tried.
 const TRIED: usize = 200;
 
 /// Most suggestions, of pairs or of matches, that join the same components.
@@ -97,22 +95,14 @@ pub fn suggest(
 ) -> Result<Vec<Suggestion>, VerdictError> {
     let search = Search::new(graph, parts, known, graph.nodes() as u32);
     let costs = Costs::new(&search);
-    let near = search.near_joints(joints, wanted.at);
-    let near = near.into_iter().chain(search.hanging(wanted.at));
     // A single pair places no image that has none.
     let is_seen = |v: u32| search.neighbours.degree(v) > 0;
-    let seen = costs.best(near, wanted.at, |(a, b)| is_seen(a) && is_seen(b), TRIED);
+    let seen = costs.best(wanted.at, |(a, b)| is_seen(a) && is_seen(b), TRIED);
     let mut sets: Vec<Vec<Pair>> = seen.iter().map(|one| vec![one.pair]).collect();
     // Two pairs place any image that is in no part, however it hangs on single ones.
     let is_placed = |v: u32| !parts.of(v).is_empty();
-    let alone = costs.best(
-        std::iter::empty(),
-        wanted.at,
-        |(a, b)| is_placed(a) != is_placed(b),
-        TRIED,
-    );
+    let alone = costs.best(wanted.at, |(a, b)| is_placed(a) != is_placed(b), TRIED);
     sets.extend(search.twice(&alone));
-    dedup(&mut sets);
     let rounds: HashMap<Pair, Candidate> = seen.into_iter().map(|one| (one.pair, one)).collect();
     // The most promising pair of a set is its first.
     let trusted = |mut sets: Vec<Vec<Pair>>| {
@@ -131,15 +121,16 @@ pub fn suggest(
         }
         found
     };
-    let mut found = explained(search.proved(trusted(sets), options)?);
-    found.retain(|one| search.joins_both(one));
+    let found = explained(search.proved(trusted(sets), options)?);
+    let (mut found, others): (Vec<Suggestion>, Vec<Suggestion>) =
+        found.into_iter().partition(|one| search.joins_both(one));
     // A set for two parts is about none of their images.
     if wanted.at.is_none() {
         let several = search.several(joints, &found, &costs, options)?;
         found.extend(explained(search.proved(trusted(several), options)?));
+        // A ring of parts may need a pair that joins others than those that it leads between.
         if found.is_empty() {
-            let anywhere = search.anywhere(&costs, options)?;
-            found.extend(explained(search.proved(trusted(anywhere), options)?));
+            found = others;
         }
     }
     Ok(ranked(found, wanted.most))
@@ -159,11 +150,6 @@ fn ordered((a, b): Pair) -> Pair {
     (a.min(b), a.max(b))
 }
 
-fn dedup(sets: &mut Vec<Vec<Pair>>) {
-    let mut seen = BTreeSet::new();
-    sets.retain(|set| seen.insert(set.clone()));
-}
-
 /// The best first, few of a kind.
 fn ranked(mut found: Vec<Suggestion>, most: usize) -> Vec<Suggestion> {
     found.sort_by_key(|one| {
@@ -179,16 +165,6 @@ fn ranked(mut found: Vec<Suggestion>, most: usize) -> Vec<Suggestion> {
     });
     found.truncate(most);
     found
-}
-
-/// How many images of each part are choices for pairs between them.
-const CHOICE: usize = 6;
-
-/// The images of one of the two components of a joint that touch the other.
-fn touched(how: &How, side: usize) -> Vec<u32> {
-    let pairs = how.pairs.iter().map(|&(a, b)| [a, b][side]);
-    let through = how.through.iter().map(|by| by[2 * side]);
-    how.shared.into_iter().chain(pairs).chain(through).collect()
 }
 
 #[cfg(test)]

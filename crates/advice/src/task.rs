@@ -5,7 +5,7 @@ use crate::mapper::Thresholds;
 use crate::named::{self, Advice, Names};
 use crate::suggest::{IMAGE_NEEDS, PAIR_NEEDS, Wanted};
 use crate::words::Scales;
-use crate::{Candidate, Known, Nearness, OtherPair, Parts, Shapes, words};
+use crate::{Candidate, Known, Nearness, OtherPair, Parts, words};
 use anyhow::{Context, Result};
 use std::collections::BTreeMap;
 use viewcert::decide::{Options, Question};
@@ -66,10 +66,10 @@ impl<'a> Task<'a> {
     }
 
     /// The joints, in the user's names and as they were found.
-    pub(crate) fn joints(&self, shapes: &mut Shapes) -> Result<(Advice, Vec<advice::Joint>)> {
+    pub(crate) fn joints(&self) -> Result<(Advice, Vec<advice::Joint>)> {
         let (graph, parts) = (&self.input.graph, &self.parts);
-        let found = advice::joints(graph, self.verdict, parts, &self.options, JOINTS, shapes)
-            .context("joints")?;
+        let found =
+            advice::joints(graph, self.verdict, parts, &self.options, JOINTS).context("joints")?;
         let joints = found.joints.iter().map(|joint| self.joint(joint)).collect();
         let named = Advice {
             joints,
@@ -220,7 +220,7 @@ impl<'a> Task<'a> {
             ..self.known
         };
         if let Some(cameras) = self.input.cameras {
-            return self.suggest_matches(cameras, joints, known, wanted);
+            return self.suggest_matches(cameras, known, wanted);
         }
         let (graph, parts) = (&self.input.graph, &self.parts);
         let found = advice::suggest(graph, parts, joints, known, wanted, &self.options);
@@ -295,13 +295,12 @@ impl<'a> Task<'a> {
     fn suggest_matches(
         &self,
         cameras: u32,
-        joints: &[advice::Joint],
         known: Known,
         wanted: Wanted,
     ) -> Result<Vec<named::Suggestion>> {
         let (graph, parts) = (&self.input.graph, &self.parts);
         let options = &self.options;
-        let found = advice::suggest_matches(graph, parts, cameras, joints, known, wanted, options);
+        let found = advice::suggest_matches(graph, parts, cameras, known, wanted, options);
         let named = found.context("--suggest")?.into_iter().map(|found| {
             let (links, frames, joins) = self.links_and_parts(&found.components);
             let known = found.known;
@@ -321,7 +320,6 @@ impl<'a> Task<'a> {
                 needs: self.needs(),
                 enough: Some(named::Enough {
                     observations: self.further(&found.observations),
-                    merged: found.merged,
                     matched: known.is_some_and(|known| known.used),
                 }),
             }

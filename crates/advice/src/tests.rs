@@ -1,6 +1,6 @@
 //! Small graphs for tests.
 
-use crate::joints::{Joints, Shapes, joints};
+use crate::joints::{Joints, joints};
 use crate::parts::Parts;
 use rand::seq::SliceRandom;
 use rand::{RngExt, SeedableRng};
@@ -145,15 +145,7 @@ pub(crate) fn verdict(graph: &Graph, model: Model) -> Verdict {
 pub(crate) fn found(graph: &Graph, model: Model) -> (Verdict, Parts, Joints) {
     let verdict = verdict(graph, model);
     let parts = Parts::new(graph, &verdict);
-    let joints = joints(
-        graph,
-        &verdict,
-        &parts,
-        &options(model),
-        1000,
-        &mut Shapes::default(),
-    )
-    .unwrap();
+    let joints = joints(graph, &verdict, &parts, &options(model), 1000).unwrap();
     (verdict, parts, joints)
 }
 

@@ -3,23 +3,20 @@
 //! A pair of a component is weak if the component is not finite solvable without it: then it falls
 //! apart. Most pairs are shown not to be weak by contraction (docs/theory.md, section 4): what no
 //! merge uses can go. The others are left out together, then in halves of halves, each on a
-//! condensation of the graph without all others of its half (`halves`). What that leaves open is
-//! decided, one decision for a set of pairs where that is enough.
+//! condensation of the graph without all others of its half, and decided: one decision for a set of
+//! pairs where that is enough.
 
 mod decisions;
-mod halves;
 mod left_out;
 
-use crate::condensation::{Condensation, terminals, without};
 use crate::parts::{Alone, Parts};
-use halves::Sorted;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use viewcert::contract::{Contraction, Part as Joined, Seed};
 use viewcert::decide::{Options, VerdictError};
 use viewcert::graph::{Adjacency, Lists};
 use viewcert::watch::Step;
-use viewcert::{Graph, Model, Strength};
+use viewcert::{Graph, Strength};
 
 /// Why something is weak.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -129,10 +126,7 @@ pub fn weak_images(
 type Pair = (u32, u32);
 
 /// The weak pairs of a component with three nodes or more, increasing.
-fn pairs_of(
-    graph: &Graph,
-    options: &Options,
-) -> Result<Vec<(Pair, Why, Strength)>, VerdictError> {
+fn pairs_of(graph: &Graph, options: &Options) -> Result<Vec<(Pair, Why, Strength)>, VerdictError> {
     let model = options.question.model;
     let neighbours = Adjacency::new(graph);
     let mut weak: Vec<(Pair, Why, Strength)> = Vec::new();
@@ -150,15 +144,11 @@ fn pairs_of(
     let (loose, in_bodies): (Vec<Pair>, Vec<Pair>) =
         candidates.partition(|pair| contraction.loose.binary_search(pair).is_ok());
     let candidates = left_out::not_cleared(graph, in_bodies, options)?;
-    let Sorted { falls, mut open } = halves::sort(graph, candidates, options)?;
-    weak.extend(
-        falls
-            .iter()
-            .map(|&pair| (pair, Why::Decided, Strength::Proof)),
-    );
-    open.extend(loose);
-    open.sort_unstable();
-    weak.extend(decided(graph, open, options)?);
+    weak.extend(decisions::weak(
+        graph,
+        [candidates, loose].concat(),
+        options,
+    )?);
     weak.sort_unstable_by_key(|&(pair, ..)| pair);
     Ok(weak)
 }
@@ -187,19 +177,6 @@ fn used(contraction: &Contraction) -> Vec<Pair> {
     used.into_iter().collect()
 }
 
-/// A subgraph on the same nodes in which up to three contractions find their pairs, each without
-/// those of the one before: at most 6 n pairs but for the loose ones.
-fn thinned(graph: &Graph, model: Model) -> Graph {
-    let mut rest = graph.clone();
-    let mut kept = BTreeSet::new();
-    for _ in 0..3 {
-        let used = used(&Contraction::new(&rest, model));
-        rest = without(&rest, &used);
-        kept.extend(used);
-    }
-    Graph::new(graph.nodes() as u32, kept).expect("edges of a graph")
-}
-
 fn check(graph: &Graph, options: &Options) -> Result<(), VerdictError> {
     Ok(options
         .watch
@@ -220,45 +197,8 @@ fn bodies_of_nodes(contraction: &Contraction, nodes: usize) -> Lists {
     Lists::group(nodes, of_node)
 }
 
-/// Whether one body holds both ends.
-fn is_in_one(bodies: &Lists, (a, b): Pair) -> bool {
-    let other = bodies.of(b as usize);
-    let mut one = bodies.of(a as usize).iter();
-    one.any(|k| other.binary_search(k).is_ok())
-}
-
-/// Which of the candidates are weak, decided on a condensation in which they are pairs.
-fn decided(
-    graph: &Graph,
-    mut candidates: Vec<Pair>,
-    options: &Options,
-) -> Result<Vec<(Pair, Why, Strength)>, VerdictError> {
-    if candidates.is_empty() {
-        return Ok(Vec::new());
-    }
-    let contraction = loop {
-        let contraction = Contraction::new(&without(graph, &candidates), options.question.model);
-        let bodies = bodies_of_nodes(&contraction, graph.nodes());
-        let pairs = candidates.iter().copied();
-        let rest: Vec<Pair> = pairs.filter(|&pair| !is_in_one(&bodies, pair)).collect();
-        if rest.len() == candidates.len() {
-            break contraction;
-        }
-        candidates = rest;
-    };
-    let bodies: Vec<&[u32]> = final_nodes(&contraction).collect();
-    let pairs = || contraction.loose.iter().chain(&candidates).copied();
-    let ends = pairs().flat_map(|(a, b)| [a, b]);
-    let small = Condensation::new(terminals(&bodies, ends), pairs(), std::iter::empty());
-    decisions::weak(&small, &candidates, options)
-}
-
 /// The weak images of a component with three nodes or more, increasing.
-fn images_of(
-    graph: &Graph,
-    options: &Options,
-) -> Result<Vec<(u32, Why, Strength)>, VerdictError> {
-    let model = options.question.model;
+fn images_of(graph: &Graph, options: &Options) -> Result<Vec<(u32, Why, Strength)>, VerdictError> {
     let n = graph.nodes() as u32;
     // Without an image of a triangle there is a pair, which is solvable.
     if n < 4 {
@@ -274,51 +214,12 @@ fn images_of(
             None => open.push(v),
         }
     }
-    if is_one_body(&Contraction::new(graph, model), graph.nodes()) {
-        let thin = thinned(graph, model);
-        let mut sorted = sorted_images(&thin, open, options)?;
-        if thin.edges().len() < graph.edges().len() {
-            // What falls apart with fewer pairs need not with all.
-            sorted.open.append(&mut sorted.falls);
-            sorted.open.sort_unstable();
-            sorted = sorted_images(graph, sorted.open, options)?;
-        }
-        let of = |&v| (v, Why::Decided, Strength::Proof);
-        weak.extend(sorted.falls.iter().map(of));
-        open = sorted.open;
-    }
-    let mut decided = Vec::new();
     for set in independent(graph, open) {
-        decided.extend(decisions::weak_images(graph, set, options)?);
+        let found = decisions::weak_images(graph, set, options)?.into_iter();
+        weak.extend(found.map(|(v, strength)| (v, Why::Decided, strength)));
     }
-    weak.extend(
-        decided
-            .into_iter()
-            .map(|(v, strength)| (v, Why::Decided, strength)),
-    );
     weak.sort_unstable_by_key(|&(v, ..)| v);
     Ok(weak)
-}
-
-/// Some images, given increasing, as far as contraction and counting go.
-fn sorted_images(
-    graph: &Graph,
-    images: Vec<u32>,
-    options: &Options,
-) -> Result<Sorted<u32>, VerdictError> {
-    let mut sorted = Sorted::default();
-    for set in independent(graph, images) {
-        sorted.extend(halves::sort(graph, set, options)?);
-    }
-    sorted.open.sort_unstable();
-    Ok(sorted)
-}
-
-fn is_one_body(contraction: &Contraction, nodes: usize) -> bool {
-    let [body] = contraction.finals[..] else {
-        return false;
-    };
-    contraction.bodies[body as usize].nodes.len() == nodes
 }
 
 /// Some nodes, given increasing, in sets without an edge in them, by greedy colouring.

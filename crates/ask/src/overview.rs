@@ -18,7 +18,7 @@ use viewcert::geometry::model::Model;
 use viewcert::intrinsics::Metric;
 use viewcert_advice::contradictions::contradictions;
 use viewcert_advice::export::shell;
-use viewcert_advice::{Advice, Request, Shapes, Tracks, foreseen};
+use viewcert_advice::{Advice, Request, Tracks, foreseen};
 use viewcert_formats::colmap::{Database, is_database};
 use viewcert_formats::error::{Kind, Problem, ReadError};
 use viewcert_formats::{
@@ -297,8 +297,7 @@ fn overview<T>(
         ..Request::default()
     };
     let (outputs, seed) = (session.outputs(), Options::default().seed);
-    let (shapes, watch) = (&mut Shapes::default(), session.watch());
-    let advice = request.advise(outputs, input, verdict, seed, shapes, watch);
+    let advice = request.advise(outputs, input, verdict, seed, session.watch());
     session.hide();
     let advice = advice.with_context(|| input.name.clone())?;
     let images = source.pairs.as_ref().unwrap_or(input);

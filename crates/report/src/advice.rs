@@ -260,11 +260,6 @@ fn sufficient(enough: &Enough) -> String {
         format!("{} sees {points} of component {}", one.image, one.component)
     });
     let mut words = seen.collect::<Vec<_>>().join(" and ");
-    words += &match enough.merged {
-        None => String::new(),
-        Some(1) => ", or 1 point of each is found to be the same".to_owned(),
-        Some(count) => format!(", or {count} points of each are found to be the same"),
-    };
     if enough.matched {
         words += "; they are matched, but in tracks that are too short: match both with further \
                   images of the other's component";

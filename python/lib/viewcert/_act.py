@@ -259,7 +259,7 @@ def export(verdict: Any, folder: Path) -> Export[Any]:
         Or a graph, which is decided first, or the path of a COLMAP database, which goes by its tracks, as
         mappers do.
     folder : str or path
-        A new folder, an empty one, or that of an earlier export, which is replaced.
+        A new folder, or an empty one.
 
     Examples
     --------

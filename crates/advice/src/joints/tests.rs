@@ -101,15 +101,7 @@ fn freedom_with_frames_is_that_of_the_whole_subgraph() {
         let plain = options(Model::Calibrated);
         let verdict = decide(&graph, &plain.clone().displacements(known.clone())).unwrap();
         let parts = Parts::new(&graph, &verdict);
-        let all = joints(
-            &graph,
-            &verdict,
-            &parts,
-            &plain,
-            1000,
-            &mut Shapes::default(),
-        )
-        .unwrap();
+        let all = joints(&graph, &verdict, &parts, &plain, 1000).unwrap();
         for joint in &all.joints {
             let how = &joint.how;
             let sides = joint.components.map(|k| parts.nodes_of(k));
@@ -171,7 +163,6 @@ fn single_pairs_have_joints_if_there_is_nothing_larger() {
         &parts,
         &options(Model::Projective),
         3,
-        &mut Shapes::default(),
     );
     let few = few.unwrap();
     assert_eq!((few.joints.len(), few.complete), (3, false));
@@ -190,15 +181,7 @@ fn a_hub_of_many_parts_is_cut_short() {
             .all(|joint| joint.how.shared == Some(0) && joint.freedom == 1)
     );
     let verdict = verdict(&graph, Model::Calibrated);
-    let all = joints(
-        &graph,
-        &verdict,
-        &parts,
-        &options(Model::Calibrated),
-        5000,
-        &mut Shapes::default(),
-    )
-    .unwrap();
+    let all = joints(&graph, &verdict, &parts, &options(Model::Calibrated), 5000).unwrap();
     assert_eq!((all.joints.len(), all.complete), (4950, true));
 }
 
@@ -218,20 +201,4 @@ fn so_is_an_image_that_leads_to_many() {
             .iter()
             .all(|joint| by(joint) && joint.freedom == 12)
     );
-}
-
-/// What was decided for one graph serves the next, and is the same.
-#[test]
-fn shapes_are_decided_once() {
-    let mut shapes = Shapes::default();
-    for graph in clusters(40) {
-        let (verdict, parts, expected) = found(&graph, Model::Projective);
-        let options = options(Model::Projective);
-        let again = joints(&graph, &verdict, &parts, &options, 1000, &mut shapes).unwrap();
-        assert_eq!(again, expected);
-        let known = shapes.0.len();
-        let third = joints(&graph, &verdict, &parts, &options, 1000, &mut shapes).unwrap();
-        assert_eq!((third, shapes.0.len()), (expected, known));
-    }
-    assert!(!shapes.0.is_empty());
 }

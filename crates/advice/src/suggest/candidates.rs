@@ -36,6 +36,12 @@ const COMMON: usize = 8;
 /// Most pairs that are chosen between two groups.
 const OF_GAP: usize = 8;
 
+/// Most pairs between two groups of images that are compared.
+const POOL: usize = 250_000;
+
+/// How many of them are chosen.
+const CHOICE: usize = 12;
+
 /// Why a pair is tried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reason {
@@ -83,8 +89,6 @@ pub(super) struct Costs<'a> {
     common: HashMap<Pair, (u32, Reason)>,
     /// How often matching every image with another group has failed.
     failures: Vec<u32>,
-    /// How far the number of neighbours of every image is from the mean of its group, in percent.
-    unusual: Vec<u32>,
 }
 
 impl<'a> Costs<'a> {
@@ -105,7 +109,6 @@ impl<'a> Costs<'a> {
         }
         Self {
             search,
-            unusual: unusual(search, &neighbours),
             common: common(search, neighbours),
             failures,
         }
@@ -171,87 +174,62 @@ impl<'a> Costs<'a> {
     }
 
     /// The best pairs between any two groups, of different images as far as there are any: `most` at
-    /// most, with an end at `at` if that is given, and such as `keep` takes; `further` are looked at
-    /// as well. O(n^2) for a thousand images, else O(n log n).
+    /// most, with an end at `at` if that is given, and such as `keep` takes. O(n^2) for a thousand images,
+    /// else O(n log n).
     pub(super) fn best(
         &self,
-        further: impl Iterator<Item = Pair>,
         at: Option<u32>,
         keep: impl Fn(Pair) -> bool,
         most: usize,
     ) -> Vec<Candidate> {
-        let images = self.search.images.len();
-        let mut pairs: Vec<Pair> = match at {
-            Some(image) => (0..images as u32).map(|b| (image, b)).collect(),
-            None if images <= ALL => {
-                let all =
-                    (0..images as u32).flat_map(|a| (a + 1..images as u32).map(move |b| (a, b)));
-                all.filter(|&(a, b)| !self.search.parts.are_together(a, b))
-                    .collect()
-            }
-            None => {
-                let near = self.search.nearness.map(|near| near.pairs(STEPS));
-                let common = self.common.keys().copied();
-                let known = self.search.known.keys().copied();
-                near.into_iter()
-                    .flatten()
-                    .chain(common)
-                    .chain(known)
-                    .collect()
-            }
+        let images = self.search.images.len() as u32;
+        let pairs = match at {
+            Some(image) => (0..images).map(|b| ordered((image, b))).collect(),
+            None => self.hopeful(),
         };
-        pairs.extend(further);
-        pairs.iter_mut().for_each(|pair| *pair = ordered(*pair));
-        pairs.sort_unstable();
-        pairs.dedup();
-        pairs.retain(|&pair| self.search.is_candidate(pair, at) && keep(pair));
-        self.chosen(pairs, most)
+        let is_one = |&pair: &Pair| self.search.is_candidate(pair, at) && keep(pair);
+        self.chosen(pairs.into_iter().filter(is_one).collect(), most)
     }
 
-    /// The best pairs between two groups of images, of different images as far as there are any, the most
-    /// promising first.
-    pub(super) fn between(&self, one: &[u32], other: &[u32], most: usize) -> Vec<Pair> {
-        let pairs = one
-            .iter()
-            .flat_map(|&a| other.iter().map(move |&b| ordered((a, b))));
-        let mut pairs: Vec<Pair> = pairs
-            .filter(|&pair| self.search.is_candidate(pair, None))
-            .collect();
-        pairs.sort_unstable();
-        pairs.dedup();
-        let mut sorted = self.sorted(pairs);
-        // Pairs that are used already give nothing more.
-        sorted.retain(|candidate| candidate.tried != Tried::Used);
-        let (mut first, mut rest) = (Vec::new(), 0);
-        let mut chosen = Vec::new();
-        for Candidate { pair: (a, b), .. } in sorted {
-            if !first.contains(&a) && !first.contains(&b) {
-                first.extend([a, b]);
-            } else if rest < most {
-                rest += 1;
-            } else {
-                continue;
-            }
-            chosen.push((a, b));
-            if first.len() == 2 * most {
-                break;
-            }
+    /// The pairs to look at: all of a thousand images, else those for which anything speaks.
+    fn hopeful(&self) -> Vec<Pair> {
+        let images = self.search.images.len();
+        if images <= ALL {
+            let images = images as u32;
+            return (0..images)
+                .flat_map(|b| (0..b).map(move |a| (a, b)))
+                .collect();
         }
-        chosen
+        let near = self.search.nearness.map(|near| near.pairs(STEPS));
+        let common = self.common.keys().copied();
+        let known = self.search.known.keys().copied();
+        let near = near.into_iter().flatten();
+        let mut pairs: Vec<Pair> = near.chain(common).chain(known).collect();
+        pairs.sort_unstable();
+        pairs.dedup();
+        pairs
     }
 
-    /// By rank and, where that is the same, images with a usual number of neighbours first: those
-    /// with most are far inside their group, those with fewest see little.
-    fn sorted(&self, pairs: Vec<Pair>) -> Vec<Candidate> {
-        let mut found: Vec<(Candidate, u32)> = pairs
-            .into_iter()
-            .map(|pair| {
-                let unusual = self.unusual[pair.0 as usize] + self.unusual[pair.1 as usize];
-                (self.candidate(pair), unusual)
-            })
-            .collect();
-        found.sort_unstable_by_key(|(one, unusual)| (one.tried, one.cost, *unusual, one.pair));
-        found.into_iter().map(|(candidate, _)| candidate).collect()
+    /// The best pairs between two groups of images, given increasing, that are not used already: the most
+    /// promising first.
+    pub(super) fn between(&self, one: &[u32], other: &[u32]) -> Vec<Pair> {
+        let pairs: Vec<Pair> = if one.len().saturating_mul(other.len()) <= POOL {
+            let of = |&a: &u32| other.iter().map(move |&b| ordered((a, b)));
+            one.iter().flat_map(of).collect()
+        } else {
+            let has = |group: &[u32], v: u32| group.binary_search(&v).is_ok();
+            let is_between = |a, b| has(one, a) && has(other, b);
+            let mut pairs = self.hopeful();
+            pairs.retain(|&(a, b)| is_between(a, b) || is_between(b, a));
+            pairs
+        };
+        let is_open = |&pair: &Pair| {
+            self.search.is_candidate(pair, None)
+                && Tried::of(self.search.known.get(&pair)) != Tried::Used
+        };
+        let mut chosen = self.chosen(pairs.into_iter().filter(is_open).collect(), CHOICE);
+        chosen.sort_by_key(Candidate::trust);
+        chosen.into_iter().map(|one| one.pair).collect()
     }
 
     /// Several of each gap: the best, then the best of other images, then what is left.
@@ -259,7 +237,10 @@ impl<'a> Costs<'a> {
         let mut gaps: HashMap<(u32, u32), Gap> = HashMap::new();
         let mut chosen: Vec<Candidate> = Vec::new();
         let mut left: Vec<Candidate> = Vec::new();
-        for candidate in self.sorted(pairs) {
+        let mut sorted: Vec<Candidate> =
+            pairs.into_iter().map(|pair| self.candidate(pair)).collect();
+        sorted.sort_unstable_by_key(Candidate::trust);
+        for candidate in sorted {
             let (a, b) = candidate.pair;
             let gap = gaps
                 .entry(ordered((self.search.group(a), self.search.group(b))))
@@ -362,19 +343,4 @@ fn of_groups(search: &Search, mut of: Vec<(u32, u32)>) -> Vec<(u32, u32)> {
     });
     of.truncate(4 * COMMON);
     of
-}
-
-/// For every image how far its number of neighbours is from the mean of its group, in percent.
-fn unusual(search: &Search, neighbours: &[Vec<(u32, u32)>]) -> Vec<u32> {
-    let mut groups: HashMap<u32, (usize, usize)> = HashMap::new();
-    for (image, of) in (0..).zip(neighbours) {
-        let group = groups.entry(search.group(image)).or_default();
-        group.0 += of.len() + 1;
-        group.1 += 1;
-    }
-    let percent = |(image, of): (u32, &Vec<(u32, u32)>)| {
-        let (sum, count) = groups[&search.group(image)];
-        (100 * (of.len() + 1) * count / sum).abs_diff(100) as u32
-    };
-    (0..).zip(neighbours).map(percent).collect()
 }

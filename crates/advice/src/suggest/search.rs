@@ -5,7 +5,6 @@ use super::tried::{PAIR_NEEDS, Tried};
 use super::{Pair, Suggestion, ordered};
 use crate::parts::Parts;
 use crate::{Known, OtherPair};
-use std::cmp::Reverse;
 use std::collections::HashMap;
 use std::ops::Range;
 use viewcert::Graph;
@@ -76,27 +75,6 @@ impl<'a> Search<'a> {
             && !self.parts.are_of_one((a, b))
             // Of two cameras that are placed nowhere no point is known that would place either.
             && !(self.is_of_tracks() && self.parts.of(a).is_empty() && self.parts.of(b).is_empty())
-    }
-
-    /// Images of a component: such that do not touch the other one first, near those that do before
-    /// others, of more pairs before fewer.
-    pub(super) fn ends(&self, nodes: &[u32], touched: &[u32], count: usize) -> Vec<u32> {
-        let nodes = self.images_of(nodes);
-        let near = |v: u32| {
-            let mut near = touched.iter();
-            near.any(|&t| self.neighbours.neighbours(t).binary_search(&v).is_ok())
-        };
-        let key = |v: u32| {
-            let degree = self.neighbours.degree(v);
-            (touched.contains(&v), !near(v), Reverse(degree), v)
-        };
-        let mut keys: Vec<_> = nodes.iter().map(|&v| key(v)).collect();
-        if keys.len() > count {
-            keys.select_nth_unstable(count);
-            keys.truncate(count);
-        }
-        keys.sort_unstable();
-        keys.into_iter().map(|(.., v)| v).collect()
     }
 
     /// Those of some nodes, given increasing, that are images.

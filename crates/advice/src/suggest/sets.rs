@@ -1,19 +1,16 @@
-//! Sets of pairs for two parts that no single pair joins: of the most promising pairs the fewest that are
-//! enough.
+//! Sets of pairs where no single pair is enough: for two parts the fewest of the most promising ones, and two
+//! for an image that is in no part.
 
-use super::{CHOICE, Costs, Pair, Search, Suggestion, touched};
+use super::{Candidate, Costs, Pair, Search, Suggestion, ordered};
 use crate::condensation::{Condensation, terminals};
 use crate::joints::{How, Joint};
 use rayon::prelude::*;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use viewcert::decide::{Options, VerdictError};
 use viewcert::graph::UnionFind;
 
 /// Most pairs of parts for which sets of several pairs are looked for.
 const SETS: usize = 20;
-
-/// Most pairs between two parts that are compared for a set.
-const POOL: usize = 250_000;
 
 impl Search<'_> {
     /// Sets of pairs for joints, and for the largest part and parts that are not connected with it: of pairs
@@ -44,18 +41,19 @@ impl Search<'_> {
         let sets = open.par_iter();
         let sets = sets.map(|(components, how)| {
             let nodes = components.map(|component| self.parts.nodes_of(component));
-            let mut pool = self.pool(&nodes, how, costs);
+            let images = nodes.each_ref().map(|nodes| self.images_of(nodes));
+            let mut pool = costs.between(images[0], images[1]);
             if let Some(single) = single(*components) {
                 pool.retain(|&pair| costs.candidate(pair).trust() < single);
             }
-            self.enough(&nodes, how, &pool, costs, options)
+            self.enough(&nodes, how, &pool, options)
         });
         let sets: Result<Vec<Option<Vec<Pair>>>, VerdictError> = sets.collect();
         Ok(sets?.into_iter().flatten().collect())
     }
 
     /// The largest part with the largest of every other connected part of the graph.
-    pub(super) fn apart(&self) -> Vec<[usize; 2]> {
+    fn apart(&self) -> Vec<[usize; 2]> {
         let mut sets = UnionFind::new(self.graph.nodes());
         for &(i, j) in self.graph.edges() {
             sets.union(i as usize, j as usize);
@@ -73,15 +71,13 @@ impl Search<'_> {
             .collect()
     }
 
-    /// Pairs that make one of two parts: of the pool, the most promising first, as few as are enough; of these
-    /// those are left out that the others make superfluous, the least promising first, but never one that is
-    /// more promising than all others. `None` if the pool is not enough, or one pair is.
+    /// Pairs that make one of two parts: of the pool, the most promising first, as few as are enough. `None` if
+    /// the pool is not enough, or one pair is.
     fn enough(
         &self,
         nodes: &[Vec<u32>; 2],
         how: &How,
         pool: &[Pair],
-        costs: &Costs,
         options: &Options,
     ) -> Result<Option<Vec<Pair>>, VerdictError> {
         let by = how.through.iter().flat_map(|&[a, x, b]| [(a, x), (x, b)]);
@@ -106,40 +102,17 @@ impl Search<'_> {
                 false => too_few = middle,
             }
         }
-        let mut chosen = pool[..enough].to_vec();
-        // The first stays if it is more promising than the second.
-        let worth = |k: usize| pool.get(k).map(|&pair| costs.candidate(pair).rank());
-        let first = usize::from(worth(0) != worth(1));
-        for k in (first..enough.saturating_sub(1)).rev() {
-            let mut fewer = chosen.clone();
-            fewer.remove(k);
-            if is_enough(&fewer)? {
-                chosen = fewer;
-            }
-        }
-        Ok((chosen.len() > 1).then_some(chosen))
+        Ok((enough > 1).then(|| pool[..enough].to_vec()))
     }
 
-    /// Pairs between two parts: the best ones, of different images first; of very large parts those
-    /// near the joint.
-    fn pool(&self, nodes: &[Vec<u32>; 2], how: &How, costs: &Costs) -> Vec<Pair> {
-        let [one, other] = [0, 1].map(|side| self.ends(&nodes[side], &touched(how, side), CHOICE));
-        if nodes[0].len().saturating_mul(nodes[1].len()) <= POOL {
-            return costs.between(&nodes[0], &nodes[1], CHOICE);
+    /// The two best of some pairs between an image that is in no part and each part.
+    pub(super) fn twice(&self, best: &[Candidate]) -> Vec<Vec<Pair>> {
+        let mut gaps: BTreeMap<Pair, Vec<Pair>> = BTreeMap::new();
+        for &Candidate { pair: (a, b), .. } in best {
+            let gap = ordered((self.group(a), self.group(b)));
+            gaps.entry(gap).or_default().push((a, b));
         }
-        let known = self.known.keys().copied();
-        let near = self.nearness.map(|near| near.pairs(CHOICE as u32));
-        let within = |k: usize, v: u32| nodes[k].binary_search(&v).is_ok();
-        let between = |&(a, b): &Pair| within(0, a) && within(1, b) || within(1, a) && within(0, b);
-        let pairs = known.chain(near.into_iter().flatten()).filter(between);
-        let ends = pairs.flat_map(|(a, b)| [a, b]);
-        let mut sides = [one, other];
-        for v in ends {
-            let side = usize::from(!within(0, v));
-            if sides[side].len() < POOL.isqrt() && !sides[side].contains(&v) {
-                sides[side].push(v);
-            }
-        }
-        costs.between(&sides[0], &sides[1], CHOICE)
+        let two = gaps.into_values().filter(|pairs| pairs.len() > 1);
+        two.map(|pairs| pairs[..2].to_vec()).collect()
     }
 }

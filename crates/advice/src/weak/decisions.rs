@@ -1,45 +1,48 @@
-//! What contraction and counting leave open, by decisions.
+//! What contraction leaves open, by decisions.
 //!
-//! In: a condensation and pairs of it, or a graph and images. Out: which of them are weak. They are left out
+//! In: a graph, and pairs or images of it. Out: which of them are weak. They are left out
 //! together, and the components of what is left are condensed in their turn. One pair is decided by itself:
 //! its count may tell of others. Then each half of the rest is looked at in the smaller graph. The
 //! halves lie apart: pairs are taken in the order in which a search comes to them, so that where
 //! separators are small the graph without a half is a few components.
 
-use super::{Pair, Why};
+use super::{Pair, Why, bodies_of_nodes, final_nodes};
 use crate::condensation::{Condensation, terminals, without};
 use crate::parts::{Alone, Parts};
 use std::collections::VecDeque;
+use viewcert::contract::Contraction;
 use viewcert::decide::{Options, Value, VerdictError, decide};
 use viewcert::graph::Adjacency;
-use viewcert::{Graph, Strength, Verdict};
+use viewcert::{Graph, Strength};
+
+/// A condensation with more nodes than the first number, and the second for each pair, has a core.
+const MOST_NODES: usize = 32;
+const NODES_EACH: usize = 8;
 
 type Weak = Vec<(Pair, Why, Strength)>;
 
-/// Which of some pairs of a condensation are weak; pairs by the nodes that it was made of.
+/// Which of some pairs of a rigid graph are weak.
 ///
 /// # Errors
 /// Those of [`decide`].
 pub(super) fn weak(
-    small: &Condensation,
-    pairs: &[Pair],
+    graph: &Graph,
+    pairs: Vec<Pair>,
     options: &Options,
 ) -> Result<Weak, VerdictError> {
-    let place = by_distance(&small.graph);
+    let place = by_distance(graph);
     let mut open: Vec<Open> = pairs
-        .iter()
-        .map(|&name| Open {
-            here: small.pair(name),
-            name,
+        .into_iter()
+        .map(|pair| Open {
+            here: pair,
+            name: pair,
         })
         .collect();
     open.sort_by_key(|pair| {
         let [a, b] = [pair.here.0, pair.here.1].map(|v| place[v as usize]);
         (a.min(b), a.max(b))
     });
-    let mut found = Vec::new();
-    search(&small.graph, open, options, &mut found)?;
-    Ok(found)
+    search(graph, open, options)
 }
 
 /// A pair of which nothing is known yet: in the graph at hand, and as it is called.
@@ -69,20 +72,16 @@ pub(super) fn weak_images(
     let place = by_distance(graph);
     let mut open: Vec<OpenImage> = images.into_iter().map(|image| (image, image)).collect();
     open.sort_by_key(|&(here, _)| place[here as usize]);
-    let mut found = Vec::new();
-    search_images(graph, &open, options, &mut found)?;
-    found.sort_unstable_by_key(|&(image, _)| image);
-    Ok(found)
+    search_images(graph, &open, options)
 }
 
 fn search_images(
     graph: &Graph,
     open: &[OpenImage],
     options: &Options,
-    found: &mut Vec<(u32, Strength)>,
-) -> Result<(), VerdictError> {
+) -> Result<Vec<(u32, Strength)>, VerdictError> {
     let Some(&(_, first)) = open.first() else {
-        return Ok(());
+        return Ok(Vec::new());
     };
     let mut gone: Vec<u32> = open.iter().map(|&(here, _)| here).collect();
     gone.sort_unstable();
@@ -95,11 +94,10 @@ fn search_images(
     let left = Alone::new(&nodes, &left);
     let verdict = decide(&left.graph, options)?;
     if verdict.value != Value::NotFiniteSolvable {
-        return Ok(());
+        return Ok(Vec::new());
     }
     if open.len() == 1 {
-        found.push((first, verdict.value_claim().strength));
-        return Ok(());
+        return Ok(vec![(first, verdict.value_claim().strength)]);
     }
     let parts = Parts::new(&left.graph, &verdict);
     let name = |v: u32| left.nodes[v as usize];
@@ -119,8 +117,10 @@ fn search_images(
     });
     let moved: Vec<OpenImage> = moved.collect();
     let (one, other) = moved.split_at(moved.len() / 2);
-    search_images(&small.graph, one, options, found)?;
-    search_images(&small.graph, other, options, found)
+    let [one, other] = both([one, other], |half| {
+        search_images(&small.graph, half, options)
+    });
+    Ok([one?, other?].concat())
 }
 
 /// Where each node comes in a search by distance, from one of those farthest from node 0 in its
@@ -152,81 +152,109 @@ fn by_distance(graph: &Graph) -> Vec<u32> {
     search(&far).0
 }
 
-fn search(
-    graph: &Graph,
-    mut open: Vec<Open>,
-    options: &Options,
-    found: &mut Weak,
-) -> Result<(), VerdictError> {
-    if open.is_empty() {
-        return Ok(());
+fn search(graph: &Graph, mut open: Vec<Open>, options: &Options) -> Result<Weak, VerdictError> {
+    super::check(graph, options)?;
+    if let [pair] = open[..] {
+        return weak_by_itself(graph, &pair, &mut Vec::new(), options);
     }
-    let (verdict, parts) = left(graph, &open, options)?;
-    let is_alone = open.len() == 1;
-    // A rigid part without them, with both ends of one: that one follows from it.
-    open.retain(|pair| parts.common(pair.here.0, pair.here.1).is_none());
-    if is_alone {
-        found.extend(open.iter().map(|pair| decided(pair, &verdict)));
-        return Ok(());
-    }
-    if open.is_empty() {
-        return Ok(());
-    }
-    let small = condensed(&parts, &open);
+    let small = condensed(graph, &mut open, options)?;
     for pair in &mut open {
         pair.here = small.pair(pair.here);
     }
-    let pair = open.pop().expect("one at least");
-    let (verdict, parts) = left(&small.graph, &[pair], options)?;
-    if parts.common(pair.here.0, pair.here.1).is_none() {
-        found.push(decided(&pair, &verdict));
-        exchange(&pair, &mut open, &verdict, &parts, found);
-    }
-    let half = open.split_off(open.len() / 2);
-    search(&small.graph, open, options, found)?;
-    search(&small.graph, half, options, found)
-}
-
-/// What is left without some pairs.
-fn left(graph: &Graph, gone: &[Open], options: &Options) -> Result<(Verdict, Parts), VerdictError> {
-    let mut gone: Vec<Pair> = gone.iter().map(|pair| pair.here).collect();
-    gone.sort_unstable();
-    let graph = without(graph, &gone);
-    let verdict = decide(&graph, options)?;
-    let parts = Parts::new(&graph, &verdict);
-    Ok((verdict, parts))
-}
-
-fn decided(pair: &Open, verdict: &Verdict) -> (Pair, Why, Strength) {
-    (pair.name, Why::Decided, verdict.value_claim().strength)
-}
-
-/// Components as chains, and pairs.
-fn condensed(parts: &Parts, open: &[Open]) -> Condensation {
-    let bodies: Vec<&[u32]> = parts.parts.iter().map(|part| &part.nodes[..]).collect();
-    let links = parts.links.iter().map(|&(pair, _)| pair);
-    let pairs = links.chain(open.iter().map(|pair| pair.here));
-    let ends = pairs.clone().flat_map(|(a, b)| [a, b]);
-    Condensation::new(terminals(&bodies, ends), pairs, std::iter::empty())
-}
-
-/// The components without a weak pair may refute by their number alone. Then another pair that is a
-/// component by itself can take the place of the weak one in that count.
-fn exchange(weak: &Open, open: &mut Vec<Open>, verdict: &Verdict, parts: &Parts, found: &mut Weak) {
-    let sizes = verdict.components.iter().map(|part| part.node_count());
-    let bound: usize = sizes.map(|n| verdict.model.required(n)).sum();
-    if bound >= verdict.required {
-        return;
-    }
-    let is_link = |pair: Pair| {
-        let at = parts.links.binary_search_by_key(&pair, |&(pair, _)| pair);
-        at.is_ok()
+    let Some(pair) = open.pop() else {
+        return Ok(Vec::new());
     };
+    let found = weak_by_itself(&small.graph, &pair, &mut open, options)?;
+    let half = open.split_off(open.len() / 2);
+    let [one, other] = both([open, half], |half| search(&small.graph, half, options));
+    Ok([found, one?, other?].concat())
+}
+
+/// What is found of both halves, side by side.
+fn both<I: Send, O: Send>([one, other]: [I; 2], of: impl Fn(I) -> O + Sync) -> [O; 2] {
+    let (one, other) = rayon::join(|| of(one), || of(other));
+    [one, other]
+}
+
+/// The graph with rigid parts of what is left without all of the pairs as chains, and with those of the pairs
+/// that none of these parts holds: bodies that the rules find, and where these leave a core the components.
+fn condensed(
+    graph: &Graph,
+    open: &mut Vec<Open>,
+    options: &Options,
+) -> Result<Condensation, VerdictError> {
+    let mut gone: Vec<Pair> = open.iter().map(|pair| pair.here).collect();
+    gone.sort_unstable();
+    let rest = without(graph, &gone);
+    let contraction = Contraction::new(&rest, options.question.model);
+    let of_nodes = bodies_of_nodes(&contraction, graph.nodes());
     open.retain(|pair| {
-        let counted = is_link(pair.here);
+        let other = of_nodes.of(pair.here.1 as usize);
+        let mut one = of_nodes.of(pair.here.0 as usize).iter();
+        !one.any(|body| other.binary_search(body).is_ok())
+    });
+    let bodies: Vec<&[u32]> = final_nodes(&contraction).collect();
+    let small = chained(&bodies, &contraction.loose, open);
+    if small.nodes.len() <= MOST_NODES + NODES_EACH * open.len() {
+        return Ok(small);
+    }
+    let verdict = decide(&rest, options)?;
+    let parts = Parts::new(&rest, &verdict);
+    open.retain(|pair| parts.common(pair.here.0, pair.here.1).is_none());
+    let bodies: Vec<&[u32]> = parts.parts.iter().map(|part| &part.nodes[..]).collect();
+    let links: Vec<Pair> = parts.links.iter().map(|&(pair, _)| pair).collect();
+    Ok(chained(&bodies, &links, open))
+}
+
+fn chained(bodies: &[&[u32]], links: &[Pair], open: &[Open]) -> Condensation {
+    let pairs = || {
+        links
+            .iter()
+            .copied()
+            .chain(open.iter().map(|pair| pair.here))
+    };
+    let ends = pairs().flat_map(|(a, b)| [a, b]);
+    Condensation::new(terminals(bodies, ends), pairs(), std::iter::empty())
+}
+
+/// One pair, if it is weak; and those of others that can take its place in a count. The rigid parts without a weak
+/// pair may refute by their number alone (docs/theory.md, Theorem 5.1). Then so they do with another pair, that no
+/// part of three nodes holds, in its place.
+fn weak_by_itself(
+    graph: &Graph,
+    pair: &Open,
+    others: &mut Vec<Open>,
+    options: &Options,
+) -> Result<Weak, VerdictError> {
+    let model = options.question.model;
+    let required = model.required(graph.nodes());
+    let rest = without(graph, &[pair.here]);
+    let contraction = Contraction::new(&rest, model);
+    let sizes = final_nodes(&contraction).map(<[u32]>::len);
+    let bound = sizes.map(|n| model.required(n)).sum::<usize>();
+    let bound = bound + contraction.loose.len() * model.required(2);
+    let mut found = vec![(pair.name, Why::Decided, Strength::Proof)];
+    let links = if bound < required {
+        contraction.loose
+    } else {
+        let verdict = decide(&rest, options)?;
+        let parts = Parts::new(&rest, &verdict);
+        if parts.common(pair.here.0, pair.here.1).is_some() {
+            return Ok(Vec::new());
+        }
+        found[0].2 = verdict.value_claim().strength;
+        let sizes = verdict.components.iter().map(|part| part.node_count());
+        if sizes.map(|n| model.required(n)).sum::<usize>() >= required {
+            return Ok(found);
+        }
+        parts.links.iter().map(|&(pair, _)| pair).collect()
+    };
+    others.retain(|other| {
+        let counted = links.binary_search(&other.here).is_ok();
         if counted {
-            found.push((pair.name, Why::Counted(weak.name), Strength::Proof));
+            found.push((other.name, Why::Counted(pair.name), Strength::Proof));
         }
         !counted
     });
+    Ok(found)
 }

@@ -1,6 +1,8 @@
 use super::*;
+use crate::condensation::without;
 use crate::tests::{clusters, graphs, options, sequences, together, tracks, verdict};
 use std::collections::BTreeSet;
+use viewcert::Model;
 
 /// Pairs and images, each with its component.
 type Places = (Vec<(Pair, usize)>, Vec<(u32, usize)>);

@@ -13,23 +13,14 @@ fn suggested(
     at: Option<u32>,
 ) -> Vec<SuggestedMatch> {
     let options = options(Model::Calibrated);
-    let (_, parts, joints) = found(graph, Model::Calibrated);
+    let (_, parts, _) = found(graph, Model::Calibrated);
     let known = Known {
         inliers: &[],
         others,
         near: None,
     };
     let wanted = Wanted { most: 1000, at };
-    suggest_matches(
-        graph,
-        &parts,
-        cameras,
-        &joints.joints,
-        known,
-        wanted,
-        &options,
-    )
-    .unwrap()
+    suggest_matches(graph, &parts, cameras, known, wanted, &options).unwrap()
 }
 
 /// Cameras 0..4 see the points 13..17, 4..8 see 17..21, 8..12 see 21..25; 12 is a camera.
@@ -41,8 +32,8 @@ fn three(more: &[Pair]) -> Graph {
     Graph::new(25, all.chain(more.iter().copied())).unwrap()
 }
 
-/// What the best suggestion for two cameras says: observations, points that become one, cameras.
-fn best(more: &[Pair], cameras: Pair) -> Option<(usize, Option<usize>, usize)> {
+/// What the best suggestion for two cameras says: observations, cameras.
+fn best(more: &[Pair], cameras: Pair) -> Option<(usize, usize)> {
     let known = OtherPair {
         images: cameras,
         inliers: 25,
@@ -53,7 +44,7 @@ fn best(more: &[Pair], cameras: Pair) -> Option<(usize, Option<usize>, usize)> {
     let found = suggested(&three(more), 13, &[known], None);
     let best = found.first().filter(|best| best.cameras == cameras)?;
     assert_eq!(best.known, Some(known));
-    Some((best.observations.len(), best.merged, best.images))
+    Some((best.observations.len(), best.images))
 }
 
 /// Two groups have 4 degrees of freedom against each other; an observation takes 2, a shared node 3,
@@ -61,20 +52,20 @@ fn best(more: &[Pair], cameras: Pair) -> Option<(usize, Option<usize>, usize)> {
 #[test]
 fn enough_by_hand() {
     // Nothing between: each camera sees a point of the other group.
-    assert_eq!(best(&[], (0, 4)), Some((2, Some(2), 8)));
+    assert_eq!(best(&[], (0, 4)), Some((2, 8)));
     // One observation, a shared camera, a shared point: one more of other ends.
-    assert_eq!(best(&[(1, 18)], (0, 4)), Some((1, Some(1), 8)));
-    assert_eq!(best(&[(1, 18), (1, 19)], (0, 4)), Some((1, Some(1), 8)));
-    assert_eq!(best(&[(1, 17), (2, 17)], (0, 4)), Some((1, Some(1), 8)));
+    assert_eq!(best(&[(1, 18)], (0, 4)), Some((1, 8)));
+    assert_eq!(best(&[(1, 18), (1, 19)], (0, 4)), Some((1, 8)));
+    assert_eq!(best(&[(1, 17), (2, 17)], (0, 4)), Some((1, 8)));
     // Two of different ends: joined already.
     assert_eq!(best(&[(1, 18), (2, 19)], (0, 4)), None);
     // A chain of two shared cameras has 2 degrees of freedom: one observation takes both.
     let chain = [(1, 18), (1, 19), (6, 22), (6, 23)];
-    assert_eq!(best(&chain, (0, 8)), Some((1, Some(1), 12)));
+    assert_eq!(best(&chain, (0, 8)), Some((1, 12)));
     // A camera alone has to see two points, or one more.
-    assert_eq!(best(&[], (0, 12)), Some((2, None, 5)));
-    assert_eq!(best(&[(12, 14)], (0, 12)), Some((1, None, 5)));
-    assert_eq!(best(&[(12, 18)], (0, 12)), Some((2, None, 5)));
+    assert_eq!(best(&[], (0, 12)), Some((2, 5)));
+    assert_eq!(best(&[(12, 14)], (0, 12)), Some((1, 5)));
+    assert_eq!(best(&[(12, 18)], (0, 12)), Some((2, 5)));
 }
 
 #[test]
@@ -153,7 +144,7 @@ fn cameras_with(graph: &Graph, cameras: u32, both: Pair) -> usize {
 /// The whole graph is decided with what is suggested, with less, and with other points.
 #[test]
 fn suggestions_are_true() {
-    let (mut one, mut two, mut merged) = (0, 0, 0);
+    let (mut one, mut two) = (0, 0);
     for seed in 0..60 {
         let (graph, cameras) = groups(seed);
         let whole = verdict(&graph, Model::Calibrated);
@@ -187,24 +178,9 @@ fn suggestions_are_true() {
                     assert_eq!(size(&changed), found.images, "{found:?} {other}");
                 }
             }
-            let Some(count) = found.merged else { continue };
-            merged += 1;
-            let attempt = Attempt::new(
-                &Search::new(&graph, &parts, Known::default(), cameras),
-                found.cameras,
-            );
-            let points = attempt.unwrap().merges().pop().unwrap();
-            let size = |points: &[Pair]| {
-                let of = |v| points.iter().find(|one| one.1 == v).map_or(v, |one| one.0);
-                let edges = graph.edges().iter().map(|&(i, j)| (i, of(j)));
-                let graph = Graph::new(graph.nodes() as u32, edges).unwrap();
-                cameras_with(&graph, cameras, found.cameras)
-            };
-            assert!(size(&points[..count]) >= 6, "{found:?}");
-            assert_eq!(size(&points[..count - 1]), 0, "{found:?}");
         }
     }
-    assert!(one > 20 && two > 20 && merged > 20, "{one} {two} {merged}");
+    assert!(one > 20 && two > 20, "{one} {two}");
 }
 
 /// With frames: what is enough joins the two cameras in the whole graph, one observation fewer does not,
@@ -218,28 +194,11 @@ fn enough_with_frames_is_enough_in_the_whole_graph() {
         let verdict = viewcert::decide(&graph, &options).unwrap();
         let parts = Parts::new(&graph, &verdict);
         let cameras = graph.edges().iter().map(|edge| edge.1).min().unwrap();
-        let joints = crate::joints(
-            &graph,
-            &verdict,
-            &parts,
-            &plain,
-            1000,
-            &mut Default::default(),
-        );
         let wanted = Wanted {
             most: 1000,
             at: None,
         };
-        let joints = joints.unwrap().joints;
-        let found = suggest_matches(
-            &graph,
-            &parts,
-            cameras,
-            &joints,
-            Known::default(),
-            wanted,
-            &plain,
-        );
+        let found = suggest_matches(&graph, &parts, cameras, Known::default(), wanted, &plain);
         for one in found.unwrap() {
             let (a, b) = one.cameras;
             let of_one = known
