@@ -799,7 +799,7 @@ fn a_database_is_exported_by_its_tracks() {
     let colmap = samples();
     let folder = tempfile::tempdir().unwrap();
     let lists = |words: &[&str]| {
-        let to = folder.path().join("parts");
+        let to = folder.path().join(words.concat().replace('/', "_"));
         let run = verify(&[&["export"][..], words, &[to.to_str().unwrap()]].concat());
         assert!(run.code < 2, "{}", run.err);
         let parts = fs::read_dir(to.join("components")).unwrap();

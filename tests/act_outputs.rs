@@ -161,18 +161,18 @@ fn what_cannot_be_an_output_is_as_it_was() {
         "the name of a file says what is drawn",
     );
     for (name, why) in [
-        ("graph.txt", "this is not a folder"),
-        ("to-folder", "this is not a folder"),
-        ("loop", "this is not a folder"),
-        ("folder", "which no export has written"),
+        ("graph.txt", "no empty folder"),
+        ("to-folder", "no empty folder"),
+        ("loop", "no empty folder"),
+        ("folder", "no empty folder"),
         ("missing/folder", "was not written"),
-        ("", "which no export has written"),
+        ("", "no empty folder"),
     ] {
         refused(&place.export(name), why);
         assert_eq!(place.state(), before, "{name}");
     }
     let run = verify(&["export", &place.at("graph.txt"), "/dev/null"]);
-    refused(&run, "this is not a folder");
+    refused(&run, "no empty folder");
 }
 
 /// Inputs of another kind: nothing is made of them, and each is named.

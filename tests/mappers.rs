@@ -131,7 +131,7 @@ fn commands_are_those_of_the_version() {
         let set = format!("pragma user_version = {version}");
         database.execute_batch(&set).unwrap();
         database.close().unwrap();
-        let out = place.path().join("out");
+        let out = place.path().join(version.to_string());
         let names = [copy.to_str().unwrap(), out.to_str().unwrap()];
         let line = verify(&["export", "--tracks", "--json", names[0], names[1]]);
         line.json()[0]["export"]["commands"][0].to_string()

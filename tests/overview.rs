@@ -13,9 +13,6 @@ const TWO: &str = "a b\na c\na d\nb c\nb d\nc d\ne f\ne g\ne h\nf g\nf h\ng h\na
 fn every_option_keeps_to_the_schema() {
     let schema = schema();
     let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("out");
-    let out = out.to_str().unwrap();
-    let export = ["export", "-", out, "--json", "--components"];
     let advise = [
         "advise",
         "-",
@@ -26,6 +23,14 @@ fn every_option_keeps_to_the_schema() {
     ];
     let advise = [&advise[..], &["--explain", "a"]].concat();
     for model in ["projective", "calibrated", "affine"] {
+        let out = folder.path().join(model);
+        let export = [
+            "export",
+            "-",
+            out.to_str().unwrap(),
+            "--json",
+            "--components",
+        ];
         for (act, asked) in [
             (&export[..], &["export", "joints"][..]),
             (&advise, &["weak", "suggestions", "explain", "joints"]),
@@ -424,10 +429,10 @@ fn tracks_of_samples_have_suggestions() {
 fn commands_name_the_database() {
     let folder = samples();
     let place = tempfile::tempdir().unwrap();
-    let out = place.path().join("out");
     let path = folder.join("clusters_nothing.db");
     let path = path.to_str().unwrap();
-    for options in [&["--tracks"][..], &[]] {
+    for (name, options) in [("tracks", &["--tracks"][..]), ("own", &[])] {
+        let out = place.path().join(name);
         let export = ["export", "--json", path, out.to_str().unwrap()];
         let arguments = [&export[..], options].concat();
         let line = verify(&arguments).json().remove(0);
