@@ -100,9 +100,9 @@ impl Core {
         bodies.sort_by_key(|body| std::cmp::Reverse(body.len()));
         let mut number = vec![None; members.nodes.len()];
         let mut left = 0;
-        for v in 0..nodes.len() {
+        for (v, number) in number.iter_mut().enumerate() {
             if !half_edges.iter().any(|half| half[0] == v) {
-                number[v] = Some(left);
+                *number = Some(left);
                 left += 1;
             }
         }
