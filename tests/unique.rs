@@ -147,6 +147,7 @@ fn stresses_merge_at_nodes() {
     let (line, certificate) = decided(&pairs);
     assert_eq!(line["verdict"], "solvable");
     assert_eq!(line["because"], "unique: 1 round of stresses");
+    assert!(line["prime"].is_u64(), "{line}");
     let round = &certificate["solutions"]["rounds"][0];
     assert_eq!(round["stresses"].as_array().unwrap().len(), 3);
     let merges = round["merges"].as_array().unwrap();

@@ -52,7 +52,7 @@ impl SolutionCount {
         }
     }
 
-    /// Goes on from rounds, if one solution comes of it.
+    /// Goes on from rounds: one solution, or a number that stays open.
     ///
     /// # Errors
     /// If the work is stopped.
@@ -65,10 +65,19 @@ impl SolutionCount {
     ) -> Result<Option<Self>, Stopped> {
         let left = rounds.left.iter().map(|(_, nodes)| nodes.clone());
         let found = Self::of(graph, left.collect(), effort, seed, task)?;
-        Ok(found.is_one().then(|| Self {
-            rounds: Some(Arc::new(rounds)),
-            ..found
-        }))
+        let is_open = found.at_most.is_none() && found.at_least == 1;
+        Ok(if found.is_one() {
+            Some(Self {
+                rounds: Some(Arc::new(rounds)),
+                ..found
+            })
+        } else {
+            // Of what is left less is unknown than at first.
+            is_open.then_some(Self {
+                evidence: None,
+                ..found
+            })
+        })
     }
 
     /// Counts the solutions of a part of a graph that is finite solvable, in the projective model, or

@@ -139,7 +139,17 @@ impl Verdict {
     /// counting decide.
     pub fn prime(&self) -> Option<u64> {
         let pieces = self.pieces.iter().filter_map(PieceVerdict::prime);
-        pieces.chain(smallest_prime(&self.by_rank)).min()
+        let rounds = self
+            .solutions
+            .iter()
+            .filter_map(|count| count.rounds.as_ref());
+        let rounds = rounds.flat_map(|rounds| &rounds.rounds);
+        let rounds =
+            rounds.filter_map(|round| smallest_prime(std::slice::from_ref(&round.evidence)));
+        pieces
+            .chain(smallest_prime(&self.by_rank))
+            .chain(rounds)
+            .min()
     }
 
     /// The answer, and how strong it is.
