@@ -195,6 +195,9 @@ struct State {
     joined: Vec<Joined>,
 }
 
+/// The sets of nodes that members have in a part.
+type Sets = Vec<Vec<u32>>;
+
 impl State {
     fn new(nodes: usize, members: Vec<Vec<u32>>) -> Self {
         let numbers = (0..members.len()).collect();
@@ -393,7 +396,7 @@ impl State {
         sha256: &[u8; 32],
         options: &Options,
         read: &Read<'_, T>,
-    ) -> Result<Vec<(Vec<Vec<u32>>, T)>, VerdictError> {
+    ) -> Result<Vec<(Sets, T)>, VerdictError> {
         let mut is_removed = vec![false; self.nodes];
         for &v in removed {
             is_removed[v as usize] = true;
