@@ -39,7 +39,7 @@ impl<'a> LabelReport<'a> {
         let degrees: Vec<String> = found.degrees.iter().map(usize::to_string).collect();
         let girth = found.girth.map(|girth| girth.to_string());
         let girth = girth.unwrap_or_else(|| "no cycle".to_owned());
-        row(out, "label", &self.label)?;
+        row(out, "label", self.label)?;
         row(out, "graph6", &self.graph6)?;
         row(out, "degrees", degrees.join(","))?;
         row(out, "girth", girth)?;
