@@ -13,6 +13,8 @@ pub(crate) enum TrackFile {
     Nvm,
     /// Matches of OpenMVG as text.
     OpenMvgMatches,
+    /// Matches of AliceVision as text.
+    AliceVisionMatches,
     /// `sfm_data.json` of OpenMVG.
     OpenMvg,
     /// `.sfm` of AliceVision.
@@ -36,6 +38,7 @@ impl TrackFile {
             Self::Bundler => "a Bundler file",
             Self::Nvm => "an NVM file of VisualSFM",
             Self::OpenMvgMatches => "a file of feature matches (OpenMVG)",
+            Self::AliceVisionMatches => "a file of feature matches (AliceVision)",
             Self::OpenMvg => "a model of OpenMVG",
             Self::AliceVision => "a model of AliceVision",
             Self::OpenSfm => "a file of tracks of OpenSfM",
@@ -68,6 +71,11 @@ pub(crate) fn kind(head: &[u8], whole: bool) -> Option<TrackFile> {
             if integers(first) && integers(&[count]) && integers(third) =>
         {
             Some(TrackFile::OpenMvgMatches)
+        }
+        [first @ [_, _], [count], [kind, matches], ..]
+            if integers(first) && integers(&[count, matches]) && kind[0].is_ascii_lowercase() =>
+        {
+            Some(TrackFile::AliceVisionMatches)
         }
         _ => None,
     }

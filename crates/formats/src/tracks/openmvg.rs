@@ -1,4 +1,5 @@
-//! OpenMVG's matches as text: `I J`, a number, and so many lines `k l`.
+//! OpenMVG's matches as text: `I J`, a number, and so many lines `k l`. AliceVision's: `I J`, a number, and so many
+//! blocks: the name of a describer, a number, and so many lines `k l`.
 //!
 //! Feature k of view I is feature l of view J. Views are called by their numbers, and a view
 //! without matches is not in the file. Every match counts: thresholds are those with which the file
@@ -13,13 +14,18 @@ use super::words::{Words, integer, shown};
 use crate::NamedGraph;
 use crate::error::Fault;
 
+/// AliceVision has fifteen kinds of features.
+const MOST_DESCRIBERS: u32 = 16;
+
 pub(super) fn read<R: Read>(
     mut words: Words<R>,
+    has_describers: bool,
     options: TrackOptions,
 ) -> Result<NamedGraph, Fault> {
     let mut views: Vec<u64> = Vec::new();
     let mut places: HashMap<u64, u32> = HashMap::new();
     let mut joined = Joined::new(0);
+    let mut describers: HashMap<Vec<u8>, u32> = HashMap::new();
     let mut place = |view, joined: &mut Joined| {
         *places.entry(view).or_insert_with(|| {
             joined.push_image();
@@ -44,11 +50,27 @@ pub(super) fn read<R: Read>(
             return Err(words.corrupt(format!("view {first} is matched with itself")));
         }
         let (first, second) = (place(first, &mut joined), place(second, &mut joined));
-        let most = u64::from(u32::MAX);
-        for _ in 0..words.number("the number of matches")? {
-            let a = words.number_below(most, "the number of a feature")?;
-            let b = words.number_below(most, "the number of a feature")?;
-            joined.join((first, a), (second, b))?;
+        let (blocks, kinds) = match has_describers {
+            true => (words.number("the number of describers")?, MOST_DESCRIBERS),
+            false => (1, 1),
+        };
+        for _ in 0..blocks {
+            // Each describer counts its features from 0.
+            let mut above = 0;
+            if has_describers {
+                let name = words.word()?.unwrap_or_default().to_vec();
+                let known = describers.len() as u32;
+                above = *describers.entry(name).or_insert(known);
+            }
+            if above >= kinds {
+                return Err(words.corrupt("there are too many kinds of features"));
+            }
+            for _ in 0..words.number("the number of matches")? {
+                let most = u64::from(u32::MAX / kinds);
+                let mut feature = || words.number_below(most, "the number of a feature");
+                let [a, b] = [feature()?, feature()?].map(|feature| feature * kinds + above);
+                joined.join((first, a), (second, b))?;
+            }
         }
     }
     let mut order: Vec<u32> = (0..views.len() as u32).collect();
