@@ -73,7 +73,7 @@ pub(super) fn overview(session: &Session, arguments: &OverviewArguments) -> Resu
                 screen::write(out, found, arguments.all)?;
             }
             let contradicts = found.contradictions.as_ref();
-            let is_good = contradicts.is_none_or(|found| found.report().is_good());
+            let is_good = contradicts.is_none_or(|found| found.is_good());
             Ok(if found.determined() && is_good {
                 GOOD
             } else {

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::time::Instant;
 use viewcert_advice::contradictions::{certificate, contradictions};
 use viewcert_formats::{ReadOptions, read_motions};
-use viewcert_report::contradictions::ContradictionsReport;
+use viewcert_report::contradictions::Contradicted;
 use viewcert_session::Session;
 
 /// The angle of an alarm, in degrees.
@@ -29,27 +29,25 @@ impl Asked<'_> {
     pub fn of<T>(
         &self,
         session: &Session,
-        say: impl FnOnce(&ContradictionsReport<'_>) -> Result<T>,
+        say: impl FnOnce(&Contradicted) -> Result<T>,
     ) -> Result<T> {
         let start = Instant::now();
         session.reading(self.file);
-        let motions = read_motions(
-            self.file,
-            &ReadOptions::default(),
-            self.certificate.is_some(),
-        );
+        let is_hashed = self.certificate.is_some();
+        let motions = read_motions(self.file, &ReadOptions::default(), is_hashed);
         session.hide();
         let motions = motions?;
-        let found = session.watched(|watch| contradictions(&motions, self.angle, watch));
-        let (motions, found) = found.with_context(|| motions.name.clone())?;
+        let name = motions.name.clone();
+        let found = session.watched(|watch| contradictions(motions, self.angle, watch));
+        let (motions, found) = found.context(name)?;
         if let Some(path) = self.certificate {
             let text = serde_json::to_vec(&certificate(&motions, &found))?;
             session.outputs().write(path, |out| out.write_all(&text))?;
         }
-        say(&ContradictionsReport {
+        say(&Contradicted {
             path: self.file.display().to_string(),
-            motions: &motions,
-            found: &found,
+            motions,
+            found,
             time: start.elapsed(),
         })
     }

@@ -325,9 +325,15 @@ fn overview<T>(
     let contradicted = database.map(|database| -> Result<_> {
         let motions = database.motions(false)?;
         database.rest()?;
-        let found = session.watched(|watch| contradictions(&motions, ANGLE, watch));
-        let (_, found) = found.with_context(|| motions.name.clone())?;
-        Ok(Contradicted { motions, found })
+        let path = motions.name.clone();
+        let found = session.watched(|watch| contradictions(motions, ANGLE, watch));
+        let (motions, found) = found.with_context(|| path.clone())?;
+        Ok(Contradicted {
+            path,
+            motions,
+            found,
+            time: Duration::ZERO,
+        })
     });
     let contradicted = contradicted.transpose()?;
     let mut found = Overview {

@@ -120,6 +120,13 @@ fn each_condition_about_numbers_is_needed() {
             ("there twice", |d| d["excluded"][0]["ends"] = json!([1, 0])),
             ("theta is not", |d| d["packings"][0]["theta"] = json!(90)),
             ("phi is not", |d| d["packings"][2]["phi"] = json!(7)),
+            ("phi is not", |d| d["packings"][2]["phi"] = json!(90)),
+            ("-1 is out of range", |d| {
+                d["packings"][0]["cycles"][0]["weight"] = json!(-1)
+            }),
+            ("is missing", |d| {
+                d["packings"][0].as_object_mut().unwrap().remove("assumed");
+            }),
             ("for witnesses alone", |d| {
                 d["packings"][2]["phi"] = json!(null)
             }),
@@ -259,7 +266,7 @@ fn each_condition_about_the_database_is_needed() {
 /// Each change of the database takes the first pair's measurement away; without qvec nothing stands for it.
 #[test]
 fn what_a_measurement_needs() {
-    let cases: [fn(&mut [Vec<Row>; 4]); 16] = [
+    let cases: [fn(&mut [Vec<Row>; 4]); 22] = [
         |tables| tables[3][0].0[1] = 14,
         |tables| tables[3][0].0[2] = 4,
         |tables| tables[3][0].1[0].truncate(120),
@@ -273,6 +280,17 @@ fn what_a_measurement_needs() {
         |tables| tables[3][0].1[0][..4].fill(255),
         |tables| tables[0][0].0[1] = 5,
         |tables| tables[0][0].0[2] = 0,
+        // Behind the principal points of these models stands distortion.
+        |tables| tables[0][0].0[1] = 2,
+        |tables| {
+            tables[0][0].0[1] = 3;
+            let more = 0.01_f64.to_le_bytes();
+            tables[0][0].1[0].extend(more);
+        },
+        |tables| tables[0][0].1[0][24..].copy_from_slice(&f64::INFINITY.to_le_bytes()),
+        |tables| drop(tables[2].remove(0)),
+        |tables| tables[2][1].1[0][4..8].copy_from_slice(&f32::INFINITY.to_le_bytes()),
+        |tables| tables[3][0].1[1][..8].copy_from_slice(&f64::INFINITY.to_le_bytes()),
         |tables| tables[0][0].1[0].truncate(24),
         |tables| tables[0][0].1[0][..8].copy_from_slice(&(-800.0_f64).to_le_bytes()),
         |tables| drop(tables[0].remove(0)),
@@ -290,6 +308,19 @@ fn what_a_measurement_needs() {
         let reason = "images [1, 2]: the pair cannot be checked";
         assert!(found.contains(reason), "change {k}: {found}");
     }
+}
+
+/// The images of a row are in the order of its number.
+#[test]
+fn a_pair_that_is_numbered_the_other_way_is_no_measurement() {
+    let mut tables = rows();
+    tables[3][0].0[0] = 2 * 2_147_483_647 + 1;
+    let database = Database::new(tables).unwrap();
+    let found = rebound(&motions(), &database).unwrap_err();
+    assert!(found.contains("[1, 2]) are no pair there"), "{found}");
+    let mut document = motions();
+    document["pairs"].as_array_mut().unwrap().remove(0);
+    rebound(&document, &database).unwrap();
 }
 
 /// What is verified once the certificate has the hash of this database.

@@ -16,48 +16,24 @@ use viewcert_formats::{Motions, Source};
 const TITLE: &str = "contradictions  ";
 
 /// Motions, and what was found about them.
-pub struct ContradictionsReport<'a> {
+pub struct Contradicted {
     /// The input.
     pub path: String,
     /// Its motions.
-    pub motions: &'a Motions,
+    pub motions: Motions,
     /// What was found.
-    pub found: &'a Contradictions,
+    pub found: Contradictions,
     /// How long it took.
     pub time: Duration,
 }
 
-/// The same, of an input that more is known of.
-pub struct Contradicted {
-    /// Its motions.
-    pub motions: Motions,
-    /// What was found about them.
-    pub found: Contradictions,
-}
-
 impl Contradicted {
-    /// What there is to report.
-    pub fn report(&self) -> ContradictionsReport<'_> {
-        ContradictionsReport {
-            path: self.motions.name.clone(),
-            motions: &self.motions,
-            found: &self.found,
-            time: Duration::ZERO,
-        }
-    }
-}
-
-impl ContradictionsReport<'_> {
     /// What makes the pairs doubtful, if anything contradicts anything.
     pub fn doubt(&self) -> Option<String> {
-        let answer = self.answer();
-        let off = answer.strip_prefix(TITLE)?;
-        let look = self
-            .look_at()
-            .map_or_else(String::new, |look| format!("; {look}"));
-        let focal = self.mostly_uncalibrated();
-        let focal = focal.map_or_else(String::new, |focal| format!("; {focal}"));
-        Some(format!("{off}{look}{focal} (verify contradictions)"))
+        let off = self.answer().strip_prefix(TITLE)?.to_owned();
+        let rest = [self.look_at(), self.mostly_uncalibrated()];
+        let all: Vec<String> = [Some(off)].into_iter().chain(rest).flatten().collect();
+        Some(format!("{} (verify contradictions)", all.join("; ")))
     }
 
     /// Whether nothing contradicts anything.
@@ -67,31 +43,28 @@ impl ContradictionsReport<'_> {
 
     /// The answer in a line.
     pub fn answer(&self) -> String {
-        let (motions, found) = (self.motions, self.found);
+        let (motions, found) = (&self.motions, &self.found);
         let checkable = counted(motions.pairs.len(), "checkable pair");
         let theta = found.packing.terms.theta;
-        let alone = match found.without_cycle {
-            0 => None,
-            1 => Some("1 is in no cycle".to_owned()),
-            count => Some(format!("{count} are in no cycle")),
+        let mut besides = match found.without_cycle {
+            0 => String::new(),
+            1 => "; 1 is in no cycle".to_owned(),
+            count => format!("; {count} are in no cycle"),
         };
-        let why: Vec<&str> = motions.unchecked.keys().map(|why| why.name()).collect();
-        let unchecked = (!why.is_empty()).then(|| {
-            let unchecked = motions.unchecked.values().sum::<usize>();
-            format!("{unchecked} cannot be checked ({})", why.join(", "))
-        });
-        let besides: Vec<String> = alone.into_iter().chain(unchecked).collect();
-        let besides = match besides.is_empty() {
-            true => String::new(),
-            false => format!("; {}", besides.join(", ")),
-        };
+        if !motions.unchecked.is_empty() {
+            let why: Vec<&str> = motions.unchecked.keys().map(|why| why.name()).collect();
+            let count = motions.unchecked.values().sum::<usize>();
+            besides += if besides.is_empty() { "; " } else { ", " };
+            besides += &format!("{count} cannot be checked ({})", why.join(", "));
+        }
         match found.at_least() {
-            0 if motions.pairs.is_empty() => {
-                format!("no contradiction among {checkable}{besides}")
+            0 => {
+                let unseen = match motions.pairs.is_empty() {
+                    true => "",
+                    false => "; look-alikes that agree are not seen",
+                };
+                format!("no contradiction among {checkable}{besides}{unseen}")
             }
-            0 => format!(
-                "no contradiction among {checkable}{besides}; look-alikes that agree are not seen"
-            ),
             count => format!(
                 "{TITLE}at least {count} of {checkable} {} off by more than {theta} degrees (proved), \
                  at most {} need be{besides}",
@@ -274,14 +247,11 @@ impl ContradictionsReport<'_> {
         for note in self.notes() {
             writeln!(out, "  note        {note}")?;
         }
-        let next = self.next();
-        if !next.is_empty() {
-            writeln!(
-                out,
-                "  next        map the neighbours alone, and compare with your model:"
-            )?;
-        }
-        for command in next {
+        for (k, command) in self.next().iter().enumerate() {
+            if k == 0 {
+                let why = "map the neighbours alone, and compare with your model:";
+                writeln!(out, "  next        {why}")?;
+            }
             writeln!(out, "    {command}")?;
         }
         writeln!(
@@ -293,7 +263,7 @@ impl ContradictionsReport<'_> {
 
     /// What is written as JSON.
     pub(crate) fn line(&self) -> Value {
-        let (motions, found) = (self.motions, self.found);
+        let (motions, found) = (&self.motions, &self.found);
         let reasons = motions.unchecked.iter();
         let reasons: BTreeMap<_, _> = reasons.map(|(why, count)| (why.name(), count)).collect();
         let finer = found.finer.as_ref();

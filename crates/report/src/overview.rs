@@ -338,7 +338,7 @@ impl Overview<'_> {
                 .to_owned()
         });
         let off = self.contradictions.as_ref();
-        let off = off.and_then(|found| found.report().doubt()).into_iter();
+        let off = off.and_then(Contradicted::doubt).into_iter();
         let refuting = off
             .chain(base_lines)
             .chain(guessed)
@@ -591,10 +591,7 @@ impl Overview<'_> {
             _ => Vec::new(),
         };
         let split = Some(&self.without_base_line).filter(|split| !split.is_empty());
-        let off = self
-            .contradictions
-            .as_ref()
-            .map(|found| found.report().line());
+        let off = self.contradictions.as_ref().map(Contradicted::line);
         let decided = self.decisive();
         let line = present(json!({
             // The graph that determines: of tracks, if there are any, or else of pairs.

@@ -2,6 +2,7 @@
 //! graph that decides.
 
 use crate::Report;
+use crate::contradictions::Contradicted;
 use crate::overview::Overview;
 use crate::page::{self, Foreword};
 use crate::scene::Scene;
@@ -49,8 +50,8 @@ pub fn html(overview: &Overview, advice: &Advice) -> io::Result<Vec<u8>> {
         text: first,
         rest: &rest[..timed],
     };
-    let motions = overview.contradictions.as_ref().map(|found| found.report());
-    let off = motions.as_ref().map(|found| found.contradicting());
+    let motions = overview.contradictions.as_ref();
+    let off = motions.map(Contradicted::contradicting);
     let scene = Scene::of(&report, matched, &off.unwrap_or_default());
     let mut page = Vec::new();
     page::write(&mut page, &report, &scene, Some(&foreword))?;

@@ -10,12 +10,6 @@ use rayon::prelude::*;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// Rotations in integers of 24 bits, and the pairs that disagree with them.
-pub(super) struct Average {
-    pub(super) rotations: Vec<[i64; 4]>,
-    pub(super) beyond: Vec<u32>,
-}
-
 /// Work of all trees, in looks at pairs.
 const WORK: usize = 4_000_000;
 const TREES: usize = 64;
@@ -30,8 +24,9 @@ const SWEEPS: usize = 24;
 /// The length of a pair beside what triangles it does not close add: 2^16 if these are all.
 const BASE: u64 = 1 << 10;
 
-/// O(pairs + triangles that are looked at), times the number of trees.
-pub(super) fn average(web: &Web, theta: u32) -> Average {
+/// Rotations in integers of 24 bits, and the pairs that disagree with them, increasing. O(pairs + triangles that are
+/// looked at), times the number of trees.
+pub(super) fn average(web: &Web, theta: u32) -> (Vec<[i64; 4]>, Vec<u32>) {
     let pairs = web.motions.len();
     let limit = f64::from(theta);
     let all: Vec<u32> = (0..pairs as u32).collect();
@@ -62,13 +57,10 @@ pub(super) fn average(web: &Web, theta: u32) -> Average {
             .count();
         let rotations = integers(&turns);
         let beyond = beyond(web, &rotations, theta);
-        Average { rotations, beyond }
+        (rotations, beyond)
     });
-    let best = found.min_by_key(|one| one.beyond.len());
-    best.unwrap_or(Average {
-        rotations: Vec::new(),
-        beyond: Vec::new(),
-    })
+    let best = found.min_by_key(|(_, beyond)| beyond.len());
+    best.unwrap_or_default()
 }
 
 fn integers(turns: &[Turn]) -> Vec<[i64; 4]> {

@@ -16,7 +16,6 @@ pub use packing::{Packing, Terms};
 pub use sides::{Look, Neighbours};
 
 use rayon::prelude::*;
-use std::borrow::Cow;
 use std::collections::HashSet;
 use viewcert::graph::{Lists, biconnected_components};
 use viewcert::watch::{Step as Stage, Stopped, Watch};
@@ -89,32 +88,31 @@ const FINER: u32 = 5;
 ///
 /// # Errors
 /// If the watch stops it.
-pub fn contradictions<'a>(
-    motions: &'a Motions,
+pub fn contradictions(
+    motions: Motions,
     theta: u32,
     watch: &Watch,
-) -> Result<(Cow<'a, Motions>, Contradictions), Stopped> {
-    let found = one_way(motions, theta, watch)?;
-    if !motions.either_way {
-        return Ok((Cow::Borrowed(motions), found));
+) -> Result<(Motions, Contradictions), Stopped> {
+    let found = one_way(&motions, theta, watch)?;
+    if motions.either_way {
+        let reversed = motions.reversed();
+        let other = one_way(&reversed, theta, watch)?;
+        let size = |found: &Contradictions| (found.at_least(), found.at_most());
+        if size(&other) < size(&found) {
+            return Ok((reversed, other));
+        }
     }
-    let reversed = motions.reversed();
-    let other = one_way(&reversed, theta, watch)?;
-    let size = |found: &Contradictions| (found.at_least(), found.at_most());
-    Ok(match size(&other) < size(&found) {
-        true => (Cow::Owned(reversed), other),
-        false => (Cow::Borrowed(motions), found),
-    })
+    Ok((motions, found))
 }
 
 fn one_way(motions: &Motions, theta: u32, watch: &Watch) -> Result<Contradictions, Stopped> {
     let task = watch.task(Stage::Cycles, motions.images);
     let pairs = &motions.pairs[..];
     let web = Web::new(pairs, motions.images);
-    let average = average::average(&web, theta);
+    let (rotations, beyond) = average::average(&web, theta);
     task.check()?;
     let terms = Terms::new(theta);
-    let open = open_cycles(&web, &average.beyond, &terms);
+    let open = open_cycles(&web, &beyond, &terms);
     task.check()?;
     let packed = |cycles: &[Cycle], terms: Terms| {
         Packing::of(verified(pairs, cycles, &terms), pairs.len(), terms)
@@ -134,7 +132,7 @@ fn one_way(motions: &Motions, theta: u32, watch: &Watch) -> Result<Contradiction
     task.check()?;
     let directed = (!one_way.is_empty()).then(|| packed(&[&open[..], &one_way].concat(), terms));
     let finer = (theta > FINER).then(|| {
-        let beyond = average::beyond(&web, &average.rotations, FINER);
+        let beyond = average::beyond(&web, &rotations, FINER);
         let terms = Terms::new(FINER);
         packed(&open_cycles(&web, &beyond, &terms), terms)
     });
@@ -148,12 +146,12 @@ fn one_way(motions: &Motions, theta: u32, watch: &Watch) -> Result<Contradiction
     Ok(Contradictions {
         directed: directed.filter(is_more),
         finer: finer.filter(is_more),
-        look_at: sides::look_at(&web, &open, &average.beyond, theta),
+        look_at: sides::look_at(&web, &open, &beyond, theta),
         without_cycle: without_cycle(pairs, motions.images),
         neighbours: neighbours.flatten(),
         packing,
-        rotations: average.rotations,
-        beyond: average.beyond,
+        rotations,
+        beyond,
     })
 }
 
