@@ -187,6 +187,7 @@ fn open_cycles(web: &Web, doubts: &[u32], terms: &Terms) -> Vec<Cycle> {
         (degree(i).min(degree(j)), pair)
     });
     let (mut found, mut further) = (Vec::new(), Vec::new());
+    let are_few = doubts.len() <= DOUBTS && (web.motions.len() <= ALL || terms.assumed.is_empty());
     for &pair in &doubts {
         let near = |is_used: &[bool], walk: &[Step]| {
             walk[1..].iter().all(|step| is_free(is_used, step.0)) && is_open(walk)
@@ -201,7 +202,7 @@ fn open_cycles(web: &Web, doubts: &[u32], terms: &Terms) -> Vec<Cycle> {
             walk.iter().for_each(|step| used[step.0 as usize] = true);
             found.push(cycle(walk));
         }
-        if doubts.len() <= DOUBTS {
+        if are_few {
             let more = web.triangles(pair).filter(|walk| near(&is_doubtful, walk));
             further.extend(more.take(MORE).map(cycle));
             further.extend(around(&is_doubtful).map(cycle));

@@ -36,9 +36,10 @@ pub struct Neighbours {
 const MORE: u32 = 2;
 /// Files apart of images that are near, for where to look first.
 const NEAR: u32 = 3;
-/// By how many thousandths of a degree a step of odometry may be off and be right: the first that half of the other
-/// pairs do not contradict.
+/// By how many thousandths of a degree a step of odometry may be off and be right: the first that nine in ten of the
+/// other pairs do not contradict.
 const ODOMETRY: [u32; 3] = [10, 100, 1000];
+const FEW: usize = 10;
 
 fn look(web: &Web, cycles: &[Cycle], pair: u32, theta: u32) -> Look {
     // Walks through the pair of which no two have another pair in common.
@@ -135,13 +136,16 @@ pub(super) fn neighbours(
     let most = if is_database {
         others.len()
     } else {
-        others.len() / 2
+        others.len() / FEW
     };
     let is_assumed = |pair: u32| assumed.binary_search(&pair).is_ok();
     let mut doubts = others;
     if pairs.len() > ALL {
         doubts = beyond_trusted(web, is_assumed, theta);
         doubts.retain(|&pair| !is_assumed(pair));
+        if doubts.len() > most {
+            return None;
+        }
     }
     let supposed = |assumed_within| {
         let terms = Terms {
