@@ -609,7 +609,7 @@ fn contradictions_are_bound_to_a_database() {
         assert!(!run.out.contains("written here"), "{}", run.out);
         assert_eq!(
             run.out.matches("of this database").count(),
-            5,
+            6,
             "{}",
             run.out
         );

@@ -421,7 +421,7 @@ fn folders_are_kept_apart() {
         assert!(found.err.contains(why), "{}", found.err);
     };
     let before = files(&at.join("model"));
-    refused(&["model", "model"], "the input");
+    refused(&["model", "model"], "in the folder of the model");
     refused(&["model", "model/parts"], "in the folder of the model");
     refused(&["model", "."], "the input");
     refused(&["model/images.txt", "out"], "this is no folder");

@@ -90,6 +90,12 @@ pub fn text(
     changes: &[Change],
 ) -> io::Result<()> {
     head(out, input)?;
+    let known = verdicts
+        .first()
+        .map_or(0, |(verdict, _)| verdict.known_parts.len());
+    if known > 0 {
+        row(out, "given", counted(known, "known part"))?;
+    }
     for (verdict, scope) in verdicts {
         let (rank, required) = (verdict.rank, verdict.required);
         let components = counted(verdict.components.len(), "component");

@@ -3,14 +3,14 @@
 use crate::error::{Kind, Problem};
 
 /// What is wrong with a database, or with reading it.
-pub(super) fn database(what: impl Into<String>, remedy: &'static str) -> Problem {
+pub(super) fn refused(what: impl Into<String>, remedy: &'static str) -> Problem {
     Problem::of(Kind::Other, what, remedy)
 }
 
 /// The program was built without the feature `databases`.
 #[cfg(not(feature = "databases"))]
 pub(super) fn not_built() -> Problem {
-    database(
+    refused(
         "this is an SQLite database, and this program was built without reading any",
         "build it with them, as it is built by default: `cargo install --path .`, or among other features --features databases",
     )
@@ -19,7 +19,7 @@ pub(super) fn not_built() -> Problem {
 /// It came through a pipe or compressed.
 pub(crate) fn no_file() -> Problem {
     let what = "an SQLite database can be read only from a file of its own";
-    database(what, "name the file itself, uncompressed")
+    refused(what, "name the file itself, uncompressed")
 }
 
 #[cfg(feature = "databases")]
@@ -27,7 +27,7 @@ pub(super) use sqlite::*;
 
 #[cfg(feature = "databases")]
 mod sqlite {
-    use super::{Problem, database};
+    use super::{Problem, refused};
     use rusqlite::{Error, ErrorCode, ffi};
     use std::fmt::Display;
     use viewcert::wording::counted;
@@ -40,7 +40,7 @@ mod sqlite {
 
     /// It changed meanwhile.
     pub(crate) fn changed() -> Problem {
-        database(
+        refused(
             "the SQLite database was written to while it was read",
             "try again when the program that writes to it is done",
         )
@@ -51,13 +51,13 @@ mod sqlite {
 
     /// Pages that contradict themselves, or are not there.
     pub(crate) fn damaged(why: impl Display) -> Problem {
-        database(format!("the SQLite database is damaged: {why}"), AGAIN)
+        refused(format!("the SQLite database is damaged: {why}"), AGAIN)
     }
 
     /// Another database.
     pub(crate) fn not_colmap(why: impl Display) -> Problem {
         let what = format!("this is an SQLite database, but not COLMAP's: {why}");
-        database(
+        refused(
             what,
             "name COLMAP's database, or write the pairs as an edge list",
         )
@@ -65,7 +65,7 @@ mod sqlite {
 
     /// Rigs and frames that contradict themselves.
     pub(crate) fn rigs(why: impl Display) -> Problem {
-        database(
+        refused(
             format!("the rigs of the database contradict themselves: {why}"),
             "configure them again (`colmap rig_configurator`), or leave them out of account: --no-rigs",
         )
@@ -74,7 +74,7 @@ mod sqlite {
     /// Something else, as SQLite says it.
     pub(crate) fn other(why: impl Display) -> Problem {
         let what = format!("the SQLite database cannot be read: {why}");
-        database(what, "check its path and permissions, or read a copy")
+        refused(what, "check its path and permissions, or read a copy")
     }
 
     impl From<Error> for Problem {
@@ -85,13 +85,13 @@ mod sqlite {
             };
             let text = text.clone().unwrap_or_else(|| code.to_string());
             match code.code {
-                ErrorCode::DatabaseBusy | ErrorCode::DatabaseLocked => database(
+                ErrorCode::DatabaseBusy | ErrorCode::DatabaseLocked => refused(
                     "the SQLite database is locked by a program that writes to it",
                     "try again when it is done, or read a copy",
                 ),
                 ErrorCode::DatabaseCorrupt | ErrorCode::NotADatabase => damaged(text),
                 ErrorCode::ReadOnly if code.extended_code == ffi::SQLITE_READONLY_ROLLBACK => {
-                    database(
+                    refused(
                         "a program has stopped in the middle of writing this SQLite database",
                         "open it once with the program that wrote it, or `sqlite3 FILE .tables`, which takes back the unfinished part; if it is still being written, wait",
                     )

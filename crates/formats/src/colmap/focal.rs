@@ -85,7 +85,7 @@ pub(crate) fn focal_lengths(path: &Path) -> Result<FocalLengths, Problem> {
         if !known.contains_key(&camera) {
             let what = format!("the image {name} is taken by camera {camera}, which is not there");
             let remedy = "write the classes of cameras into a file, and give it to --intrinsics";
-            return Err(error::database(what, remedy));
+            return Err(error::refused(what, remedy));
         }
         cameras.insert(name.clone(), camera);
     }

@@ -116,7 +116,7 @@ impl Opened {
                 let why = text.unwrap_or_else(|| code.to_string());
                 let what =
                     "the SQLite database cannot be opened together with its -wal and -shm files";
-                Err(error::database(
+                Err(error::refused(
                     format!("{what}: {why}"),
                     "check the permissions of all three, or copy them to a folder of yours",
                 ))
@@ -177,7 +177,7 @@ impl Opened {
         };
         let no_copy = |why: std::io::Error| {
             let what = "the last changes are in the -wal file, and a temporary copy of both fails";
-            error::database(
+            error::refused(
                 format!("{what}: {why}"),
                 "make room, name another folder in TMPDIR, or close the database properly: `sqlite3 FILE 'pragma wal_checkpoint(truncate)'`",
             )

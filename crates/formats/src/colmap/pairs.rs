@@ -78,14 +78,14 @@ impl Tables {
         if tables.pairs.is_empty() && tables.dangling == 0 {
             let matched = tables.matches.iter().filter(|&&(_, count)| count > 0);
             return Err(match matched.count() {
-                0 => error::database(
+                0 => error::refused(
                     format!(
                         "the database has images, {}, but no matches",
                         tables.names.len()
                     ),
                     "match the images first, for example with `colmap exhaustive_matcher --database_path FILE`",
                 ),
-                matched => error::database(
+                matched => error::refused(
                     format!(
                         "{} matched, but none is verified: {table} is empty",
                         error::are(matched)

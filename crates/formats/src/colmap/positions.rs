@@ -120,7 +120,7 @@ pub(crate) fn pose_priors(path: &Path) -> Result<PosePriors, Problem> {
         };
         let name = &names[node as usize];
         let wrong = |why: &str| {
-            error::database(
+            error::refused(
                 format!("the position of the image {name} {why}"),
                 "write the pose priors again, all in one system of coordinates, or write the cameras whose position is known into a file, `position` before each",
             )

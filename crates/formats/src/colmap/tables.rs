@@ -75,7 +75,7 @@ pub(super) fn images(connection: &Connection) -> Result<Images, Problem> {
             ValueRef::Text(bytes) => std::str::from_utf8(bytes),
             _ => return Err(error::damaged(format!("image {id} has no name"))),
         };
-        let rename = |what: String| error::database(what, "rename the image");
+        let rename = |what: String| error::refused(what, "rename the image");
         let name = name.map_err(|_| rename(format!("the name of image {id} is no UTF-8")))?;
         if name.contains(char::is_control) {
             return Err(rename(format!(
@@ -85,7 +85,7 @@ pub(super) fn images(connection: &Connection) -> Result<Images, Problem> {
         images.push((name.into(), id));
     }
     if images.is_empty() {
-        return Err(error::database(
+        return Err(error::refused(
             "the database has no images",
             "extract features first: `colmap feature_extractor --database_path FILE --image_path images`",
         ));
@@ -93,7 +93,7 @@ pub(super) fn images(connection: &Connection) -> Result<Images, Problem> {
     images.sort_unstable();
     if let Some(two) = images.windows(2).find(|two| two[0].0 == two[1].0) {
         let what = format!("two images are called `{}`", two[0].0);
-        return Err(error::database(what, "rename the image"));
+        return Err(error::refused(what, "rename the image"));
     }
     let nodes = (0..).zip(&images).map(|(node, (_, id))| (*id, node));
     let nodes = nodes.collect();

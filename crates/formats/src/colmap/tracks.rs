@@ -104,11 +104,11 @@ fn no_lists(pairs: usize) -> Problem {
 /// No match of the pairs that are used counts, or no pair is used.
 fn no_tracks(pairs: usize) -> Problem {
     match pairs {
-        0 => error::database(
+        0 => error::refused(
             "the database has no tracks: no pair has enough inliers to be used",
             "ask for fewer inliers (--min-inliers; in COLMAP --Mapper.min_num_matches and --GlobalMapper.min_num_matches), or decide its pairs without --tracks",
         ),
-        _ => error::database(
+        _ => error::refused(
             format!("the database has no tracks: {} used", error::are(pairs)),
             "match the images again: the features that are matched are not in the database",
         ),
@@ -160,7 +160,7 @@ fn each_match(
         let damaged = |why: String| {
             let [first, second] = [first, second].map(|image| &names[image as usize]);
             let what = format!("the matches of the images {first} and {second} are damaged: {why}");
-            error::database(what, error::AGAIN)
+            error::refused(what, error::AGAIN)
         };
         if usize::try_from(count)
             .ok()

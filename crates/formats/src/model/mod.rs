@@ -96,6 +96,13 @@ pub(crate) fn has_no_points(folder: &Path) -> bool {
     })
 }
 
+/// What a file is called that has the name of a file of a model.
+pub(crate) fn title_of(path: &Path) -> Option<&'static str> {
+    let name = path.file_name()?.to_str()?;
+    let mut titles = TITLES.iter().flatten().copied();
+    titles.find(|title| title["COLMAP's ".len()..] == *name)
+}
+
 /// The folder of a model, if a path is that of one of its files.
 pub(crate) fn folder_of(path: &Path) -> Option<(&Path, &'static str)> {
     let folder = path.parent()?;
@@ -103,10 +110,11 @@ pub(crate) fn folder_of(path: &Path) -> Option<(&Path, &'static str)> {
     let here = folder.as_os_str().is_empty();
     let folder = if here { Path::new(".") } else { folder };
     let encoding = encoding_in(folder)?;
-    let titles = TITLES.iter().map(|titles| titles[encoding as usize]);
-    let name = path.file_name()?.to_str()?;
-    let mut titles = titles.filter(|title| title["COLMAP's ".len()..] == *name);
-    Some((folder, titles.next()?))
+    let title = title_of(path)?;
+    let is_read = TITLES
+        .iter()
+        .any(|titles| titles[encoding as usize] == title);
+    is_read.then_some((folder, title))
 }
 
 /// A model: who sees what, and everything else as it was written.

@@ -13,7 +13,7 @@ use crate::documents::{self, Document};
 use crate::edge_list::Reading;
 use crate::edge_list::columns::{Columns, ListOptions};
 use crate::edge_list::decimal::Decimal;
-use crate::error::{Fault, Kind as ProblemKind, Problem, ReadError};
+use crate::error::{Fault, Kind as ProblemKind, Place, Problem, ReadError};
 use crate::inflate::{Inflater, is_gzip};
 use crate::lines::{Encoding, Lines};
 use crate::matching::Matching;
@@ -297,9 +297,18 @@ pub fn read_graphs(path: impl AsRef<Path>, options: &ReadOptions) -> Graphs {
             (_, Err(error)) => failed(&name, Problem::unreadable(&error).into()),
         },
     };
+    // A text that is refused at its beginning, and is called like a file of a model, is one.
+    let part = model::title_of(&path).filter(|_| options.format.is_none());
+    let named = move |mut error: ReadError| {
+        let at_first = matches!(error.place, Place::Input | Place::Line(1));
+        if let Some(title) = part.filter(|_| at_first) {
+            error.problem = Problem::foreign(title, recognise::COLMAP);
+        }
+        error
+    };
     let graphs = std::iter::once_with(open).flatten();
     Box::new(graphs.map(move |graph| {
-        let mut graph = graph?;
+        let mut graph = graph.map_err(&named)?;
         graph.read.options.clone_from(&given);
         Ok(graph)
     }))
