@@ -284,6 +284,8 @@ pub fn read_meant(
 pub fn read_graphs(path: impl AsRef<Path>, options: &ReadOptions) -> Graphs {
     let (path, options) = (path.as_ref().to_owned(), options.clone());
     let (name, given) = (path.display().to_string(), options.given());
+    // A text that is refused at its beginning, and is called like a file of a model, is one.
+    let part = model::title_of(&path).filter(|_| options.format.is_none());
     let open = move || match path.to_str() {
         Some("-") => graphs(name, std::io::stdin(), options),
         _ if path.is_dir() => Box::new(std::iter::once(folder(&path, &options))),
@@ -297,8 +299,6 @@ pub fn read_graphs(path: impl AsRef<Path>, options: &ReadOptions) -> Graphs {
             (_, Err(error)) => failed(&name, Problem::unreadable(&error).into()),
         },
     };
-    // A text that is refused at its beginning, and is called like a file of a model, is one.
-    let part = model::title_of(&path).filter(|_| options.format.is_none());
     let named = move |mut error: ReadError| {
         let at_first = matches!(error.place, Place::Input | Place::Line(1));
         if let Some(title) = part.filter(|_| at_first) {
