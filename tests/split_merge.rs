@@ -423,7 +423,7 @@ fn folders_are_kept_apart() {
     let before = files(&at.join("model"));
     refused(&["model", "model"], "in the folder of the model");
     refused(&["model", "model/parts"], "in the folder of the model");
-    refused(&["model", "."], "the input");
+    refused(&["model", "."], "this is there, and no empty folder");
     refused(&["model/images.txt", "out"], "this is no folder");
     refused(&["nothing", "out"], "this is no folder");
     fs::create_dir(at.join("mine")).unwrap();

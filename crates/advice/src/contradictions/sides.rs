@@ -37,7 +37,7 @@ const MORE: u32 = 2;
 /// Files apart of images that are near, for where to look first.
 const NEAR: u32 = 3;
 /// By how many thousandths of a degree a step of odometry may be off and be right: the first that nine in ten of the
-/// other pairs do not contradict.
+/// other pairs do not contradict, of twenty or fewer half of them.
 const ODOMETRY: [u32; 3] = [10, 100, 1000];
 const FEW: usize = 10;
 
@@ -136,7 +136,7 @@ pub(super) fn neighbours(
     let most = if is_database {
         others.len()
     } else {
-        others.len() / FEW
+        (others.len() / FEW).max(others.len().min(2 * FEW) / 2)
     };
     let is_assumed = |pair: u32| assumed.binary_search(&pair).is_ok();
     let mut doubts = others;

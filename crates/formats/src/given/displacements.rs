@@ -116,11 +116,10 @@ impl Lines {
             _ => "are of no pairs of the graph: their directions are known with them",
         };
         let note = format!("{} {how}", counted(others, "known displacement"));
-        let notes = (others > 0)
-            .then_some(note)
-            .into_iter()
-            .chain(same)
-            .collect();
+        let alone = "1 position is known, which says nothing about a single camera";
+        let alone = (positions.len() == 1).then(|| alone.to_owned());
+        let other = (others > 0).then_some(note);
+        let notes = alone.into_iter().chain(other).chain(same).collect();
         let known = known_in(known, one_frame);
         Ok(Given { known, notes })
     }
