@@ -281,12 +281,11 @@ impl Collector {
     fn check(&mut self, line: &str, fields: &[Field], ends: [Field; 2]) -> Result<(), Problem> {
         let is_strict = self.reading == Reading::Strict;
         let bare = matches!(self.layout.head, Head::None | Head::Comment);
-        let needed = if bare { fields } else { &ends[..] };
-        if needed.iter().any(|field| field.raw(line).is_empty()) {
-            return Err(Problem::empty_field());
-        }
         for field in ends {
             let label = field.raw(line);
+            if label.is_empty() {
+                return Err(Problem::empty_field());
+            }
             if field.quoted || self.is_known(label) {
                 continue;
             }
@@ -310,6 +309,9 @@ impl Collector {
         }
         for (field, at) in fields[2..].iter().zip(3..) {
             let text = self.layout.number(field.raw(line));
+            if text.is_empty() {
+                return Err(Problem::empty_field());
+            }
             if field.quoted || !is_number(text.as_bytes()) {
                 let what = format!("field {at}, `{}`, is no number", shown(&text));
                 return Err(Problem::lines(what));
