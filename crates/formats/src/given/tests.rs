@@ -99,6 +99,7 @@ fn of_displacements_what_counts_once_or_says_nothing_is_said() {
     assert_eq!(
         notes,
         [
+            "1 position is known, which says nothing about a single camera",
             "2 known displacements are of no pairs of the graph: their directions are known with them",
         ]
     );
