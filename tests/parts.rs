@@ -230,9 +230,8 @@ fn what_is_wrong_is_said() {
         .map(|n| n.as_str().unwrap())
         .collect();
     let own = files.name("parts.txt");
-    for note in ["2 parts add nothing: of fewer than two cameras, or given again"] {
-        assert!(notes.contains(&&*format!("{own}: {note}")), "{notes:?}");
-    }
+    let note = "2 parts add nothing: of fewer than two cameras, or given again";
+    assert!(notes.contains(&&*format!("{own}: {note}")), "{notes:?}");
     assert_eq!(line["parts"], 2);
     for (parts, reason) in [
         ("a b\nb e\n", ":2: `e` is no camera of the graph"),

@@ -78,8 +78,21 @@ fn commands_print_what_stands_there() {
             "{words:?}: {said}"
         );
         let printed = String::from_utf8(run.stdout).unwrap();
-        assert_eq!(timeless(&printed), timeless(expected), "{words:?}");
+        let [printed, expected] = [&printed, expected].map(without_seconds);
+        assert_eq!(timeless(&printed), timeless(&expected), "{words:?}");
     }
+}
+
+/// Rows of CSV without their eighth field.
+fn without_seconds(printed: &str) -> String {
+    let rows = printed.lines().map(|row| {
+        let fields = row.split(',').enumerate();
+        let is_row = row.starts_with("data/");
+        let kept = fields.filter(|(k, _)| !is_row || *k != 7);
+        let kept: Vec<&str> = kept.map(|(_, field)| field).collect();
+        kept.join(",") + "\n"
+    });
+    rows.collect()
 }
 
 /// The page's Table 1 is the published one.
@@ -107,13 +120,12 @@ fn table_3_stands_there() {
     for row in published.records().map(Result::unwrap) {
         // A row is named by the path as it was given.
         let name = format!("data/table3/{}", &row[1]);
-        let line = printed
-            .lines()
-            .find(|line| line.split_whitespace().next() == Some(&name));
-        let words: Vec<&str> = line.unwrap().split_whitespace().collect();
+        let mut lines = printed.lines().map(|line| line.split(','));
+        let line = lines.find(|line| line.clone().next() == Some(&name));
+        let fields: Vec<&str> = line.unwrap().collect();
         assert_eq!(
-            words[1..6],
-            [&row[2], &row[3], "%", &row[4], &row[7]],
+            [fields[1], fields[2], fields[3], fields[6]],
+            [&row[2], &row[3], &row[4], &row[7]],
             "{name}"
         );
     }
