@@ -138,7 +138,7 @@ pub(super) fn view<'a>(
     let bodies = bodies.map(|&k| verdict.contraction.bodies[k as usize].nodes.clone());
     let edges = piece.members.edges.iter().map(|&(i, j)| vec![i, j]);
     let members = match rounds {
-        Some(rounds) => rounds.left.iter().map(|(_, nodes)| nodes.clone()).collect(),
+        Some(rounds) => rounds.left.clone(),
         None => bodies.chain(edges).collect(),
     };
     let (upper, lower) = (

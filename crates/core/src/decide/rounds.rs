@@ -23,10 +23,8 @@ use std::collections::{BTreeSet, HashMap};
 pub struct Rounds {
     /// What is rigid without some nodes, and the merges that follow, in order.
     pub rounds: Vec<Round>,
-    /// The members left, each with its number and its shared nodes.
-    pub left: Vec<(usize, Vec<u32>)>,
-    /// The number of the next member.
-    pub next: usize,
+    /// The shared nodes of each member that is left.
+    pub left: Vec<Vec<u32>>,
     /// For each time that nodes were removed how many they were, of how many.
     pub removed: Vec<[usize; 2]>,
     /// How many times stresses merged members.
@@ -138,8 +136,7 @@ pub(super) fn merge(
     }
     Ok(Rounds {
         rounds,
-        left: state.numbered(),
-        next: state.next,
+        left: state.members,
         removed,
         stressed,
     })
@@ -229,11 +226,6 @@ impl State {
             next,
             joined: Vec::new(),
         }
-    }
-
-    fn numbered(&self) -> Vec<(usize, Vec<u32>)> {
-        let members = self.members.iter().cloned();
-        self.numbers.iter().copied().zip(members).collect()
     }
 
     /// Merges the members that some places belong to now, if they are several.

@@ -63,7 +63,7 @@ impl SolutionCount {
         seed: u64,
         task: &Task<'_>,
     ) -> Result<Option<Self>, Stopped> {
-        let left = rounds.left.iter().map(|(_, nodes)| nodes.clone());
+        let left = rounds.left.iter().cloned();
         let found = Self::of(graph, left.collect(), effort, seed, task)?;
         let is_open = found.at_most.is_none() && found.at_least == 1;
         Ok(if found.is_one() {
