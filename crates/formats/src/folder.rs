@@ -123,8 +123,12 @@ impl Listing {
                 if let Some(changed) = changed {
                     lines.push(format!("CHANGED {}: {changed}", name(&path)));
                 } else if contents != entry.certificates.as_ref() {
-                    let why = "it proves something else than the manifest says";
-                    lines.push(format!("CHANGED {}: {why}", name(&path)));
+                    lines.push(format!(
+                        "CHANGED {}: {}, and the manifest says {}",
+                        name(&path),
+                        describe(contents),
+                        describe(entry.certificates.as_ref())
+                    ));
                 }
             }
             let of_folder = self
@@ -162,6 +166,28 @@ pub struct Completeness {
 /// A path for people.
 pub fn name(path: &Path) -> String {
     printable(&path.display().to_string())
+}
+
+fn describe(contents: Option<&Contents>) -> String {
+    let Some(contents) = contents else {
+        return "no certificates".into();
+    };
+    let counts = [
+        (&contents.models, "", ""),
+        (&contents.verdicts, "", ""),
+        (&contents.solutions, "with ", " solutions"),
+        (&contents.supposed, "supposing ", ""),
+    ];
+    let each = counts.into_iter().flat_map(|(counts, before, behind)| {
+        let each = counts.iter();
+        each.map(move |(word, n)| format!("{n} {before}{}{behind}", printable(word)))
+    });
+    let all: Vec<String> = each.collect();
+    format!(
+        "{} ({})",
+        counted(contents.graphs as usize, "graph"),
+        all.join(", ")
+    )
 }
 
 /// Whether a file holds a certificate a line.
