@@ -281,10 +281,14 @@ pub(super) fn layout(
     let cells = lines.iter().map(|line| texts(line, layout.separator));
     let cells: Vec<Vec<String>> = cells.filter_map(Result::ok).collect();
     if reading == Reading::Lenient {
-        // The first two fields, between whatever separates them.
-        let is_end = |field: &String| !field.contains(' ') || is_image(field);
-        let are_ends = |line: &Vec<String>| line.len() > 1 && line[..2].iter().all(is_end);
-        if cells.len() < lines.len() || !cells.iter().all(are_ends) {
+        // The first two fields, between whatever separates them: semicolons, and what stands between names of
+        // images with blanks in them.
+        let ends = || cells.iter().flat_map(|line| line.iter().take(2));
+        let blank = |field: &String| field.contains(' ');
+        let are_pairs = cells.len() == lines.len() && cells.iter().all(|line| line.len() > 1);
+        let are_ends = ends().all(|field| !blank(field) || is_image(field));
+        let is_needed = layout.separator == Separator::Byte(b';') || ends().any(blank);
+        if !(are_pairs && are_ends && is_needed) {
             layout.separator = Separator::Any;
         }
         layout.width = layout.width.filter(|_| options.min_weight.is_some());
