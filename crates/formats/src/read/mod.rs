@@ -285,8 +285,8 @@ pub fn read_graphs(path: impl AsRef<Path>, options: &ReadOptions) -> Graphs {
     let (path, options) = (path.as_ref().to_owned(), options.clone());
     let (name, given) = (path.display().to_string(), options.given());
     // A text that is refused at its beginning, and is called like a file of a model, is one.
-    let is_alone = options.format.is_none() && model::folder_of(&path).is_none();
-    let part = model::title_of(&path).filter(|_| is_alone);
+    let part = model::title_of(&path).filter(|_| options.format.is_none());
+    let place = path.clone();
     let open = move || match path.to_str() {
         Some("-") => graphs(name, std::io::stdin(), options),
         _ if path.is_dir() => Box::new(std::iter::once(folder(&path, &options))),
@@ -302,7 +302,8 @@ pub fn read_graphs(path: impl AsRef<Path>, options: &ReadOptions) -> Graphs {
     };
     let named = move |mut error: ReadError| {
         let at_first = matches!(error.place, Place::Input | Place::Line(1));
-        if let Some(title) = part.filter(|_| at_first) {
+        let is_alone = || model::folder_of(&place).is_none();
+        if let Some(title) = part.filter(|_| at_first && is_alone()) {
             error.problem = Problem::foreign(title, recognise::COLMAP);
         }
         error
