@@ -2,11 +2,26 @@
 
 use super::Contradictions;
 use super::packing::Packing;
+use serde::Serialize;
 use serde_json::{Value, json};
 use viewcert_formats::{Motion, Motions};
 
+/// What is written; `format` comes first, by which files of this program are known.
+#[derive(Serialize)]
+pub struct Certificate<'a> {
+    format: &'static str,
+    version: u32,
+    program: &'static str,
+    database: Option<&'a str>,
+    images: Vec<String>,
+    pairs: Value,
+    excluded: Value,
+    packings: Value,
+    upper: Value,
+}
+
 /// The certificate of what was found about motions.
-pub fn certificate(motions: &Motions, found: &Contradictions) -> Value {
+pub fn certificate<'a>(motions: &'a Motions, found: &Contradictions) -> Certificate<'a> {
     let pair = |motion: &Motion| {
         json!({
             "ends": motion.images,
@@ -41,19 +56,19 @@ pub fn certificate(motions: &Motions, found: &Contradictions) -> Value {
     let supposed = found.neighbours.as_ref().map(|found| &found.packing);
     let packings = [Some(&found.packing), supposed].into_iter().chain(others);
     let names = (0..motions.images as u32).map(|image| motions.labels.label(image));
-    json!({
-        "format": "viewcert certificate of contradictions",
-        "version": 1,
-        "program": concat!("viewcert ", env!("CARGO_PKG_VERSION")),
-        "database": motions.hash,
-        "images": names.collect::<Vec<_>>(),
-        "pairs": pairs(&motions.pairs),
-        "excluded": pairs(&motions.excluded),
-        "packings": packings.flatten().map(packed).collect::<Value>(),
-        "upper": [{
+    Certificate {
+        format: "viewcert certificate of contradictions",
+        version: 1,
+        program: concat!("viewcert ", env!("CARGO_PKG_VERSION")),
+        database: motions.hash.as_deref(),
+        images: names.map(|name| name.into_owned()).collect(),
+        pairs: pairs(&motions.pairs),
+        excluded: pairs(&motions.excluded),
+        packings: packings.flatten().map(packed).collect(),
+        upper: json!([{
             "theta": found.packing.terms.theta,
             "rotations": found.rotations,
             "at_most": found.at_most(),
-        }],
-    })
+        }]),
+    }
 }
