@@ -14,7 +14,7 @@
 //! contradict each other cannot both be right. Nothing is written.
 
 use crate::condensation::{chain, with};
-use crate::misfit::{Common, Misfit, View, first_at_place};
+use crate::misfit::{Common, Misfit, View, dot, first_at_place, minus};
 use crate::named::Names;
 use anyhow::{Context, Error, Result, ensure};
 use serde::Serialize;
@@ -222,9 +222,8 @@ impl<'a> Two<'a> {
         let placed: Vec<[[f64; 3]; 2]> = placed.collect();
         let from = |side: usize, k: usize| {
             let [origin, point] = [0, k].map(|k| placed[k][side]);
-            [0, 1, 2].map(|axis| point[axis] - origin[axis])
+            minus(point, origin)
         };
-        let dot = |u: [f64; 3], v: [f64; 3]| u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
         // The farthest point from the first, and one that is off the line through both.
         let farthest = (0..placed.len()).max_by(|&j, &k| {
             let [j, k] = [j, k].map(|k| dot(from(0, k), from(0, k)));

@@ -9,7 +9,7 @@
 use serde::Serialize;
 use viewcert_formats::quaternion::rotation;
 
-type Vector = [f64; 3];
+pub(crate) type Vector = [f64; 3];
 /// By rows.
 type Matrix = [Vector; 3];
 
@@ -356,11 +356,11 @@ fn median(numbers: impl Iterator<Item = f64>) -> Option<f64> {
     numbers.get(numbers.len() / 2).copied()
 }
 
-fn dot(a: Vector, b: Vector) -> f64 {
+pub(crate) fn dot(a: Vector, b: Vector) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-fn minus(a: Vector, b: Vector) -> Vector {
+pub(crate) fn minus(a: Vector, b: Vector) -> Vector {
     [0, 1, 2].map(|k| a[k] - b[k])
 }
 
