@@ -315,7 +315,7 @@ fn models_side_by_side() {
     );
     assert_eq!(change["at"].as_array().unwrap().len(), 4);
     let text = verify(&["models", &graph, "--given", &parts]).out;
-    assert!(text.contains("  given       4 known parts\n"), "{text}");
+    assert!(text.contains("8 cameras, 4 pairs, 4 known parts"), "{text}");
     let run = verify(&["models", &graph, &graph, "--given", &parts]);
     assert_eq!(run.code, 2);
 }

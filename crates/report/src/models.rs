@@ -1,9 +1,9 @@
 //! Every camera model side by side, for people and for programs.
 
 use super::json::{AnswerLine, GraphLine, parts, write_line};
-use super::{counted, head, text};
+use super::{counted, size_of, size_with_parts, text};
 use crate::assumptions::Scope;
-use crate::shown::{SHOWN, row, several, some_names};
+use crate::shown::{SHOWN, head_with, row, several, some_names};
 use serde::Serialize;
 use std::collections::{BTreeMap, HashMap};
 use std::io::{self, Write};
@@ -89,13 +89,11 @@ pub fn text(
     verdicts: &[(Verdict, Scope)],
     changes: &[Change],
 ) -> io::Result<()> {
-    head(out, input)?;
-    let known = verdicts
-        .first()
-        .map_or(0, |(verdict, _)| verdict.known_parts.len());
-    if known > 0 {
-        row(out, "given", counted(known, "known part"))?;
-    }
+    let size = verdicts.first().map_or_else(
+        || size_of(input),
+        |(verdict, _)| size_with_parts(input, verdict),
+    );
+    head_with(out, input, size)?;
     for (verdict, scope) in verdicts {
         let (rank, required) = (verdict.rank, verdict.required);
         let components = counted(verdict.components.len(), "component");

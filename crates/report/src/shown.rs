@@ -50,9 +50,18 @@ pub(crate) fn row(out: &mut impl Write, title: &str, words: impl Display) -> io:
 /// # Errors
 /// Those of the writer.
 pub fn head(out: &mut impl Write, input: &NamedGraph) -> io::Result<()> {
+    head_with(out, input, size_of(input))
+}
+
+/// The same, with other words for its size.
+pub(crate) fn head_with(
+    out: &mut impl Write,
+    input: &NamedGraph,
+    size: impl Display,
+) -> io::Result<()> {
     writeln!(out, "{}", printable(&input.name))?;
     row(out, "read as", &input.read)?;
-    row(out, "graph", size_of(input))?;
+    row(out, "graph", size)?;
     notes(out, &input.notes)
 }
 
