@@ -52,6 +52,8 @@ impl Browser {
                 Screen::Phone => &[
                     "--window-size=390,844",
                     "--blink-settings=primaryPointerType=2,availablePointerTypes=2",
+                    // Names have their size once a frame is drawn.
+                    "--virtual-time-budget=2000",
                 ],
             })
             .arg(format!("--user-data-dir={}", profile.path().display()))
