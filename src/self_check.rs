@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result, bail};
 use std::time::Duration;
-use viewcert_check::{AnyCertificate, Failure, Graph, Limits};
+use viewcert_check::{Certificate, Failure, Graph, Limits};
 use viewcert_formats::NamedGraph;
 
 /// Operations of the checker, and bytes that it reads, in a second; and what is always spent on it.
@@ -25,8 +25,8 @@ pub(super) fn is_checked(text: &[u8], input: &NamedGraph, found_in: Duration) ->
     };
     let pairs = input.graph.edges().iter().copied();
     let graph = Graph::new(input.graph.nodes(), pairs).with_context(|| input.name.clone())?;
-    let checked = AnyCertificate::parse(text)
-        .and_then(|certificate| certificate.check_within(Some(&graph.as_stated()), &limits));
+    let checked = Certificate::parse(text)
+        .and_then(|certificate| certificate.check(Some(&graph.as_stated()), None, &limits));
     match checked {
         Ok(_) => Ok(true),
         Err(Failure::TooLarge(_)) => Ok(false),

@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::Path;
-use viewcert_check::{HereCertificate, Limits};
+use viewcert_check::{Certificate, Limits};
 
 /// A graph and its cameras, in a folder of the test's own.
 struct Scene {
@@ -529,9 +529,8 @@ fn the_checkers_agree_on_mutants() {
     let answers: Vec<&str> = second.out.lines().collect();
     let (mut kept, mut ranks) = (0, BTreeMap::new());
     for (mutant, answer) in all.iter().zip(&answers) {
-        let first = HereCertificate::parse(mutant.to_string().as_bytes());
-        let first =
-            first.and_then(|certificate| certificate.check_within(None, &Limits::default()));
+        let first = Certificate::parse(mutant.to_string().as_bytes());
+        let first = first.and_then(|certificate| certificate.check(None, None, &Limits::default()));
         assert_eq!(
             first.is_ok(),
             answer.starts_with("VERIFIED"),

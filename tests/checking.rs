@@ -59,18 +59,18 @@ const SQUARE: &str = "0 1\n1 2\n2 3\n0 3\n";
 const HOUSE: &str = "0 1\n0 2\n1 2\n1 3\n3 4\n2 4\n";
 const CAMERAS: &str = "centre 0 0 0 0\ncentre 1 1 0 0\ncentre 2 0 1 0\ncentre 3 1 1 3\n";
 
-/// The member `format` says what kind a certificate is of, and no name does.
+/// The member `question` says what a certificate is about, and no name does.
 #[test]
 #[ignore = "needs python3"]
-fn a_name_is_no_format() {
+fn a_name_is_no_question() {
     let folder = Folder::new(&[("square.txt", SQUARE), ("cameras.txt", CAMERAS)]);
     let classes = folder.write("classes.txt", "default focal\n");
     let cameras = folder.path("cameras.txt");
     for (k, name) in [
         "viewcert certificate",
-        "viewcert certificate at cameras",
-        "viewcert certificate of intrinsics",
-        "\"format\": \"viewcert certificate at cameras\"",
+        "at-cameras",
+        "\"intrinsics\"",
+        "\"question\": \"at-cameras\"",
     ]
     .into_iter()
     .enumerate()
@@ -91,19 +91,19 @@ fn a_name_is_no_format() {
     let text = fs::read_to_string(folder.path("at0.json")).unwrap();
     let mut document: Value = serde_json::from_str(&text).unwrap();
     let object = document.as_object_mut().unwrap();
-    let format = object.remove("format").unwrap();
+    let question = object.remove("question").unwrap();
     let without = folder.write("without.json", &json!(object).to_string());
     all_say(1, &[&without]);
-    object.insert("zzz".into(), json!({"format": format}));
+    object.insert("zzz".into(), json!({"question": question}));
     all_say(
         1,
         &[&folder.write("inside.json", &json!(object).to_string())],
     );
     object.remove("zzz");
     let text = json!(object).to_string();
-    let last = format!("{}, \"format\": {format}}}", &text[..text.len() - 1]);
+    let last = format!("{}, \"question\": {question}}}", &text[..text.len() - 1]);
     all_say(0, &[&folder.write("last.json", &last)]);
-    let twice = format!("{{\"format\": \"viewcert certificate\", {}", &last[1..]);
+    let twice = format!("{{\"question\": \"generic\", {}", &last[1..]);
     all_say(1, &[&folder.write("twice.json", &twice)]);
 }
 

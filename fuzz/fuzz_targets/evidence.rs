@@ -74,7 +74,7 @@ fn about(graph: &Graph, nodes: usize, edges: usize) -> Value {
         .collect();
     let claim = json!({"value": 0, "strength": "proof", "error_log2": null});
     json!({
-        "format": "viewcert certificate", "version": 2, "program": "",
+        "format": "viewcert certificate", "version": 3, "question": "generic", "program": "",
         "graph": {"name": "", "nodes": nodes, "edges": edges, "sha256": sha256, "graph6": null},
         "model": "projective",
         "claim": {

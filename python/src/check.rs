@@ -15,7 +15,7 @@ use viewcert::graph::sha256;
 use viewcert::intrinsics::Sensors;
 use viewcert_check::program::{is_certificate, no_certificate};
 use viewcert_check::{
-    AnyCertificate, AnyVerified, BaseLines, Failure, Graph as Pairs, Limits, OwnFrame, Strength,
+    Answer, BaseLines, Certificate, Failure, Graph as Pairs, Limits, OwnFrame, Question, Strength,
 };
 use viewcert_formats::{NamedGraph, ReadOptions, read_meant};
 
@@ -46,7 +46,7 @@ fn with_known(input: &NamedGraph, parts: Vec<Vec<u32>>, known: Known) -> anyhow:
 }
 
 /// The graph in a file that a certificate is about, of several the one with its hash.
-fn in_file(certificate: &AnyCertificate, path: &Path) -> anyhow::Result<Pairs> {
+fn in_file(certificate: &Certificate, path: &Path) -> anyhow::Result<Pairs> {
     let is_meant = |input: &NamedGraph| hex(&sha256(&input.graph)) == certificate.graph_sha256();
     let found = read_meant(path, &ReadOptions::default(), is_meant)?;
     let no_graph = || format!("{}: the file holds no graph", path.display());
@@ -90,9 +90,9 @@ pub(crate) fn check<'py>(
     let classes = classes.transpose()?;
     let mut limits = Limits::default();
     limits.operations = max_operations.unwrap_or(limits.operations);
-    let checked = Job::new(py)?.run(py, move || -> anyhow::Result<AnyVerified> {
-        let certificate = AnyCertificate::parse(&certificate)?;
-        let is_generic = matches!(certificate, AnyCertificate::Generic(_));
+    let checked = Job::new(py)?.run(py, move || -> anyhow::Result<Answer> {
+        let certificate = Certificate::parse(&certificate)?;
+        let is_generic = certificate.question() == Question::Generic;
         let graph = match (given, file) {
             (Some((input, parts, known)), _) if is_generic => {
                 Some(with_known(&input, parts, known)?)
@@ -101,15 +101,15 @@ pub(crate) fn check<'py>(
             (None, Some(path)) => Some(in_file(&certificate, &path)?),
             (None, None) => None,
         };
-        Ok(certificate.check_within(graph.as_ref(), &limits)?)
+        Ok(certificate.check(graph.as_ref(), None, &limits)?)
     })?;
     let verified = checked.map_err(|error| match error.downcast::<Failure>() {
         Ok(failure) => of_checking(failure),
         Err(error) => of_any(&error),
     })?;
     let (of_cameras, of_classes) = match &verified {
-        AnyVerified::AtCameras(found) => (Some(&found.centres_sha256), None),
-        AnyVerified::Intrinsics(found) => (None, Some(&found.classes_sha256)),
+        Answer::AtCameras(found) => (Some(&found.centres_sha256), None),
+        Answer::Intrinsics(found) => (None, Some(&found.classes_sha256)),
         _ => (None, None),
     };
     named("cameras", of_cameras, centres, is_for_graph)?;
@@ -143,7 +143,7 @@ fn rejected(step: &str, reason: &str) -> PyErr {
 }
 
 /// What is proved, by the names of `viewcert.Verified`.
-fn said<'py>(py: Python<'py>, verified: &AnyVerified) -> PyResult<Bound<'py, PyDict>> {
+fn said<'py>(py: Python<'py>, verified: &Answer) -> PyResult<Bound<'py, PyDict>> {
     let said = PyDict::new(py);
     let ([nodes, edges], sha256) = verified.graph();
     said.set_item("nodes", nodes)?;
@@ -153,7 +153,7 @@ fn said<'py>(py: Python<'py>, verified: &AnyVerified) -> PyResult<Bound<'py, PyD
     said.set_item("model", verified.model().to_string())?;
     said.set_item("text", verified.to_string())?;
     let (rank, required, components, strength) = match verified {
-        AnyVerified::Generic(found) => {
+        Answer::Generic(found) => {
             let known = found.displacements.as_ref().map_or(0, |known| known.groups);
             let own = found.own_frame.as_ref().map_or(0, |known| known.groups);
             said.set_item("parts", found.parts)?;
@@ -166,12 +166,12 @@ fn said<'py>(py: Python<'py>, verified: &AnyVerified) -> PyResult<Bound<'py, PyD
             let components = Some(found.components.0);
             (found.rank.0, found.required, components, found.verdict.1)
         }
-        AnyVerified::AtCameras(found) => {
+        Answer::AtCameras(found) => {
             said.set_item("centres_sha256", &found.centres_sha256)?;
             let components = usize::try_from(found.components.0).ok();
             (found.rank.0, found.required, components, found.rank.1)
         }
-        AnyVerified::Intrinsics(found) => {
+        Answer::Intrinsics(found) => {
             said.set_item("classes_sha256", &found.classes_sha256)?;
             said.set_item("classes", &found.classes)?;
             said.set_item("rank_at_most", found.rank[1])?;
@@ -179,7 +179,7 @@ fn said<'py>(py: Python<'py>, verified: &AnyVerified) -> PyResult<Bound<'py, PyD
             let components = found.components.as_ref().map(Vec::len);
             (found.rank[0], found.required, components, Strength::Proof)
         }
-        AnyVerified::Contradictions(_) => {
+        Answer::Contradictions(_) => {
             let reason = "it is about motions, and not about a graph: `verify check` verifies it";
             return Err(rejected("", reason));
         }

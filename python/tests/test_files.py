@@ -113,7 +113,7 @@ def test_contradictions_are_the_programs(program: Program, data: pathlib.Path, t
     assert untimed(found.found) == untimed(theirs)
     assert found.at_least >= 40 and (found.checkable, found.unchecked) == (183, 26)
     assert len(found.look_at) == 2 and found.report().startswith("contradictions  at least 4")
-    assert proof.read_text().startswith('{"format":"viewcert certificate of contradictions"')
+    assert proof.read_text().startswith('{"format":"viewcert certificate","version":3,"question":"contradictions"')
     assert viewcert.contradictions(data / "turn4/photos/books_seq3.db").at_least == 0
     with pytest.raises(viewcert.InputError, match="from 1 to 59"):
         viewcert.contradictions(path, angle=60)

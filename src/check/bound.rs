@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result, ensure};
 use std::path::Path;
-use viewcert_check::{AnyVerified, ContradictionsCertificate, Database, Failure, Limits};
+use viewcert_check::{Answer, Certificate, Database, Failure, Limits};
 use viewcert_formats::colmap::{is_database, raw_tables};
 
 /// Checks the certificate, and that its numbers are those of the database.
@@ -10,10 +10,10 @@ use viewcert_formats::colmap::{is_database, raw_tables};
 /// # Errors
 /// If the file is no database that can be read.
 pub(super) fn check(
-    certificate: &ContradictionsCertificate,
+    certificate: &Certificate,
     path: &Path,
     limits: &Limits,
-) -> Result<Result<AnyVerified, Failure>> {
+) -> Result<Result<Answer, Failure>> {
     ensure!(
         is_database(path),
         "{}: this certificate is about the numbers of a COLMAP database, and this is none; without it the \
@@ -21,6 +21,5 @@ pub(super) fn check(
         path.display()
     );
     let database = Database::new(raw_tables(path)?).with_context(|| path.display().to_string())?;
-    let checked = certificate.check_within(Some(&database), limits);
-    Ok(checked.map(|verified| AnyVerified::Contradictions(Box::new(verified))))
+    Ok(certificate.check(None, Some(&database), limits))
 }

@@ -8,7 +8,7 @@ use std::path::Path;
 use viewcert::Known;
 use viewcert::certificate::hex;
 use viewcert::graph::{Labels, sha256};
-use viewcert_check::{AnyCertificate, Expected, Graph};
+use viewcert_check::{Certificate, Expected, Graph, Question};
 use viewcert_formats::{Beside, NamedGraph, ReadOptions, beside, read_meant};
 
 /// Where what is named besides a certificate comes from.
@@ -33,7 +33,7 @@ impl Named<'_> {
     /// If there is no such graph; those of the files.
     pub(super) fn resolve(
         &self,
-        certificate: &AnyCertificate,
+        certificate: &Certificate,
         expected: &mut Expected,
     ) -> Result<Option<Graph>> {
         let (input, graph) = match self.graph {
@@ -66,11 +66,11 @@ impl Named<'_> {
     /// The graph with what is known beside its pairs, by its file and by rigs.
     fn with_given(
         &self,
-        certificate: &AnyCertificate,
+        certificate: &Certificate,
         (input, mut graph): (&NamedGraph, Graph),
         expected: &mut Expected,
     ) -> Result<Graph> {
-        let is_generic = matches!(certificate, AnyCertificate::Generic(_));
+        let is_generic = certificate.question() == Question::Generic;
         if self.given.is_none() && !is_generic {
             return Ok(graph);
         }

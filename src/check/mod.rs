@@ -15,7 +15,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use viewcert_ask::archive::{News, Terms, check_archive, not_as_expected, reason};
 use viewcert_check::program::{self, MAX_BYTES, is_certificate, no_certificate};
-use viewcert_check::{AnyCertificate, Expected, Failure, Limits, Model};
+use viewcert_check::{Certificate, Expected, Failure, Limits, Model, Question};
 use viewcert_formats::folder::{Listing, is_list, name};
 use viewcert_formats::whole;
 use viewcert_report::counted;
@@ -189,8 +189,8 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<u8> {
     };
     let from = arguments.intrinsics.clone().map(IntrinsicsFrom::from);
     let mut terms = arguments.terms();
-    let checked = match (AnyCertificate::parse(&text), &arguments.graph) {
-        (Ok(AnyCertificate::Contradictions(certificate)), Some(path)) => {
+    let checked = match (Certificate::parse(&text), &arguments.graph) {
+        (Ok(certificate), Some(path)) if certificate.question() == Question::Contradictions => {
             bound::check(&certificate, path, &terms.limits)?
         }
         (Ok(certificate), _) => {
@@ -202,7 +202,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<u8> {
                 read: &options()?,
             };
             let graph = named.resolve(&certificate, &mut terms.expected)?;
-            certificate.check_within(graph.as_ref(), &terms.limits)
+            certificate.check(graph.as_ref(), None, &terms.limits)
         }
         (Err(failure), _) => Err(failure),
     };

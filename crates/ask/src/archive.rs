@@ -9,7 +9,7 @@ use std::path::Path;
 use std::{fmt, fs, iter};
 use viewcert_check::program::{MAX_BYTES, is_certificate, no_certificate};
 use viewcert_check::{
-    AnyCertificate, AnyVerified, Expected, Failure, Limits, Rejection, TooLarge, Verdict,
+    Answer, Certificate, Expected, Failure, Limits, Rejection, TooLarge, Verdict,
 };
 use viewcert_formats::folder::{Completeness, Listing, is_list};
 use viewcert_formats::manifest::Contents;
@@ -156,11 +156,11 @@ pub fn check_archive(
 }
 
 /// The independent checker's answer on a certificate; of what is none the reason says what one is.
-fn check(text: &[u8], terms: &Terms) -> Result<AnyVerified, Failure> {
+fn check(text: &[u8], terms: &Terms) -> Result<Answer, Failure> {
     if !is_certificate(text) {
         return Err(rejected(no_certificate(false).to_owned()));
     }
-    let verified = AnyCertificate::parse(text)?.check_within(None, &terms.limits)?;
+    let verified = Certificate::parse(text)?.check(None, None, &terms.limits)?;
     let found = terms.expected.differences(&verified);
     match found.is_empty() {
         true => Ok(verified),
@@ -183,8 +183,8 @@ fn rejected(reason: String) -> Failure {
 
 /// What is proved of the number of solutions, "2", "1-3" or "1-"; a number is proved by `solvable` as well.
 #[must_use]
-pub fn solutions(verified: &AnyVerified) -> Option<String> {
-    let AnyVerified::Generic(verified) = verified else {
+pub fn solutions(verified: &Answer) -> Option<String> {
+    let Answer::Generic(verified) = verified else {
         return None;
     };
     match (verified.verdict.0, &verified.solutions) {

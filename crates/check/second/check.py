@@ -14,11 +14,8 @@ import gzip
 import itertools
 import sys
 
-from at_cameras import FORMAT as AT_CAMERAS
 from at_cameras import HereCheck
-from contradictions import FORMAT as OF_CONTRADICTIONS
 from contradictions import ContradictionsCheck
-from intrinsics import FORMAT as OF_INTRINSICS
 from intrinsics import IntrinsicsCheck
 from graphs import read_given
 from notation import Reject, TooLarge, Unreadable, need, parse
@@ -32,9 +29,9 @@ LINE_LIMIT = 2**26  # bytes of a line of many certificates; compressed it may be
 class Check(OwnFrame):
     """The check of one certificate. `evidence_claim` is what its evidence proves, to be compared with its claim."""
 
-    def __init__(self, data, graph_data=None, core_limit=CORE_LIMIT, given_data=None, work_limit=WORK_LIMIT, expects=False):
+    def __init__(self, document, graph_data=None, core_limit=CORE_LIMIT, given_data=None, work_limit=WORK_LIMIT, expects=False):
         self.core_limit, self.work_limit = core_limit, work_limit
-        bodies, rigid, pieces, solutions, base_lines, own_frame = self.read_document(data, graph_data, given_data, expects)
+        bodies, rigid, pieces, solutions, base_lines, own_frame = self.read_document(document, graph_data, given_data, expects)
         self.check_bodies(bodies)
         self.everything = self.cover()
         found, rigid_count = self.check_pieces(rigid, pieces, self.everything, "section 6: ")
@@ -84,16 +81,18 @@ def check(data, **given):
 
 
 def check_kind(document, graph_data=None, core_limit=CORE_LIMIT, given_data=None, work_limit=WORK_LIMIT, database=None, **named):
-    """Section 3: the member `format` says which kind it is. `named` are `model`, `classes_hash`, `centres_hash`.
-    `database` is the path of one of contradictions."""
+    """Section 3: the member `question` says which it is. `named` are `model`, `classes_hash`, `centres_hash`.
+    `database` is the path of what is in `graph_data`, which is a database if the certificate is of contradictions."""
+    question = document.get("question") if type(document) is dict else None
+    if question == "contradictions":
+        graph_data = graph_data if database is None else None
     expects = any(one is not None for one in (graph_data, given_data, *named.values()))
-    form = document.get("format") if type(document) is dict else None
-    if form == OF_CONTRADICTIONS:
+    if question == "contradictions":
         need(not expects, "it is about motions, and nothing of a graph is expected of it")
         return ContradictionsCheck(document, database)
-    if form == AT_CAMERAS:
+    if question == "at-cameras":
         done = HereCheck(document, graph_data, core_limit)
-    elif form == OF_INTRINSICS:
+    elif question == "intrinsics":
         done = IntrinsicsCheck(document, graph_data, core_limit)
     else:
         done = Check(document, graph_data, core_limit, given_data, work_limit, expects)
@@ -183,7 +182,7 @@ def check_list(paths, **limits):
 
 
 def main(arguments=None):
-    parser = argparse.ArgumentParser(description="Checks certificates of docs/certificate.md, version 2.")
+    parser = argparse.ArgumentParser(description="Checks certificates of docs/certificate.md, version 3.")
     parser.add_argument("certificate", nargs="?", help="a certificate, one JSON text (- is standard input)")
     parser.add_argument("graph", nargs="?", help="the graph that it has to be about; of one of contradictions the COLMAP database")
     parser.add_argument("--given", metavar="FILE", help="what it has to suppose besides the graph; with GRAPH, default nothing")
@@ -205,12 +204,9 @@ def main(arguments=None):
             return check_list(options.list, **limits)
         text = read_file(options.certificate)
         given_data = read_file(options.given) if options.given else None
-        if f'"{OF_CONTRADICTIONS}"'.encode() in text:
-            graph_data, named["database"] = None, options.graph
-        else:
-            graph_data = read_file(options.graph) if options.graph else None
+        graph_data = read_file(options.graph) if options.graph else None
         need_certificate(options.certificate, text, graph_data)
-        done = check(text, graph_data=graph_data, given_data=given_data, **named, **limits)
+        done = check(text, graph_data=graph_data, given_data=given_data, database=options.graph, **named, **limits)
     except Reject as error:
         print("REJECTED")
         print(shown(error), file=sys.stderr)

@@ -67,7 +67,7 @@ class Claims(Pieces):
         return claim
 
     def compare_claim(self):
-        """Section 8: value, strength and error are exactly what the evidence gives."""
+        """Section 8, and (H11) of section 14: value, strength and error are exactly what the evidence gives."""
         for name, part in self.evidence_claim.items():
             for member, value in part.items():
                 claimed = self.claim[name][member]

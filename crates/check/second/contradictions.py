@@ -8,9 +8,8 @@ import sqlite3
 import struct
 import urllib.parse
 
-from notation import Unreadable, a_list, a_string, an_int, increasing, members, need, parse, same
+from notation import Unreadable, a_list, a_string, an_int, increasing, members, members_about, need, same
 
-FORMAT = "viewcert certificate of contradictions"
 FACTOR = 2147483647
 DISTORTED = {0: 3, 1: 4, 2: 3, 3: 3, 4: 4, 6: 4}  # where the distortion of a model begins
 PARAMETERS = {0: 3, 1: 4, 2: 4, 3: 5, 4: 8, 6: 12}
@@ -86,12 +85,9 @@ def ints(value, count, where):
 class ContradictionsCheck:
     """The check of one certificate, and of its numbers where the path of their database is known."""
 
-    def __init__(self, data, source=None):
-        document = parse(data) if isinstance(data, bytes) else data
-        names = "format version program database images pairs excluded packings upper"
-        form, version, program, self.database, images, pairs, excluded, packings, upper = members(document, names, "the document")
-        need(same(form, FORMAT) and same(version, 1), "another format or version")
-        a_string(program, "program")
+    def __init__(self, document, source=None):
+        names = "database images pairs excluded packings upper"
+        self.database, images, pairs, excluded, packings, upper = members_about("contradictions", document, names, "the document")
         need(self.database is None or re.fullmatch("[0-9a-f]{64}", a_string(self.database, "database")), "database: no 64 digits")
         self.images = [a_string(name, "a name") for name in a_list(images, "images")]
         need(self.images and len(set(self.images)) == len(images), "(C1) no images, or two of one name")

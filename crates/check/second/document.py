@@ -7,34 +7,27 @@ import struct
 
 from elimination import find_pivots
 from graphs import read_given, read_graph, read_graph6
-from notation import a_big, a_list, a_string, an_int, distinct, increasing, members, need, parse, same
+from notation import a_big, a_list, a_string, an_int, distinct, increasing, members, members_about, need
 from supposed import Supposed
 
 
 class Document:
     """Section 3: one certificate, its graph, and what it supposes besides."""
 
-    own = None
+    own, verdicts = None, ("solvable", "finite-solvable", "not-finite-solvable")
 
-    def read_document(self, data, graph_data, given_data, expects=False):
+    def read_document(self, document, graph_data, given_data, expects=False):
         """Section 3: the members; those of later sections, that is bodies, rigid, pieces and solutions, are handed on."""
-        document = parse(data) if isinstance(data, bytes) else data
-        names = "format version program graph model claim bodies rigid pieces"
-        if type(document) is dict and same(document.get("format"), "viewcert certificate"):
-            version = document.get("version")
-            need(not same(version, 1), "section 3: version 1, whose draws were not bound to the core; only 2 is read")
-            need(same(version, 2), "section 3: the version is not 2")
+        names = "graph model claim bodies rigid pieces"
         names_of_more = ("displacements", "vectors", "parts", "solutions", "base_lines", "own_frame")
         more = [name for name in names_of_more if type(document) is dict and name in document]
-        form, _, program, graph, self.model, self.claim, bodies, rigid, pieces, *values = members(
-            document, " ".join([names, *more]), "section 3: the document"
+        graph, self.model, self.claim, bodies, rigid, pieces, *values = members_about(
+            "generic", document, " ".join([names, *more]), "section 3: the document"
         )
         stated = dict(zip(more, values))
         need("displacements" not in stated or "parts" not in stated, "section 3: displacements and parts at once")
         optional = [name for name in more if name in names_of_more[3:]]
         solutions, base_lines, own_frame = ([stated[name] for name in optional if name == own] for own in names_of_more[3:])
-        need(form == "viewcert certificate", "section 3: the format is another")
-        a_string(program, "section 3: program")
         need(self.model in ("projective", "calibrated", "affine"), "section 3: no such model")
         self.projective = self.model == "projective"
         self.read_graph(graph, graph_data)
@@ -168,8 +161,7 @@ class Document:
             where = f"section 3: {name}"
             *values, strength, error = members(part, own.get(name, "value") + " strength error_log2", where)
             if name == "verdict":
-                known = values[0] in ("solvable", "finite-solvable", "not-finite-solvable")
-                need(known, f"{where}: no such value")
+                need(values[0] in self.verdicts, f"{where}: no such value")
             elif name == "solutions":
                 an_int(values[0], f"{where}: at_least", least=0)
                 if values[1] is not None:

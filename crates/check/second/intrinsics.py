@@ -6,10 +6,9 @@ import struct
 
 from draws import DRAW, Stream
 from elimination import Elimination
-from notation import TooLarge, a_big, a_list, a_string, an_int, members, need, parse, same
+from notation import TooLarge, a_big, a_list, a_string, an_int, members, members_about, need, same
 from pieces import Pieces
 
-FORMAT = "viewcert certificate of intrinsics"
 UNKNOWN = {"known": 0, "focal": 1, "focal+point": 3, "unknown": 5}
 OFF = ((0, 1), (0, 2), (1, 2))
 
@@ -17,16 +16,13 @@ OFF = ((0, 1), (0, 2), (1, 2))
 class IntrinsicsCheck(Pieces):
     """Section 15: the check of one certificate."""
 
-    def __init__(self, data, graph_data=None, core_limit=200):
+    def __init__(self, document, graph_data=None, core_limit=200):
         self.core_limit = core_limit
-        document = parse(data) if isinstance(data, bytes) else data
-        names = "format version program graph classes claim bodies prime seed draw rows cols motion"
+        names = "graph classes claim bodies prime seed draw rows cols motion"
         shared = type(document) is dict and "shared" in document
-        form, version, program, graph, classes, self.claim, bodies, prime, seed, draw, rows, cols, motion, *lists = members(
-            document, names + " shared" * shared, "section 15: the document"
+        graph, classes, self.claim, bodies, prime, seed, draw, rows, cols, motion, *lists = members_about(
+            "intrinsics", document, names + " shared" * shared, "section 15: the document"
         )
-        need(same(form, FORMAT) and same(version, 1), "section 15: another format or version")
-        a_string(program, "section 15: program")
         self.read_graph(graph, graph_data)
         self.read_classes(classes, lists)
         # Section 5, in the projective model without known parts.

@@ -418,7 +418,7 @@ class Maker:
             blocks = self.blocks_of([member for member, _ in self.members])
         rigid, pieces, _ = self.divide(blocks)
         document = {
-            **{"format": "viewcert certificate", "version": 2, "program": "make.py"},
+            **{"format": "viewcert certificate", "version": 3, "question": "generic", "program": "make.py"},
             "graph": {
                 **{"name": "made", "nodes": self.graph.n, "edges": len(self.graph.edges)},
                 **{"sha256": self.graph.hash.hex(), "graph6": graph6_of(self.graph)},

@@ -87,6 +87,18 @@ def members(value, names, where):
     return [value[name] for name in names]
 
 
+def members_about(question, document, names, where):
+    """Section 3: the members of the document of a question, without those that every document has."""
+    version = document.get("version") if type(document) is dict else None
+    need(type(version) is not int or version >= 3, f"section 3: version {version} is not read any more; write the certificate anew")
+    form, version, asked, program, *values = members(document, "format version question program " + names, where)
+    need(same(form, "viewcert certificate"), "section 3: the format is another")
+    need(same(version, 3), "section 3: the version is not 3")
+    need(same(asked, question), "section 3: there is no such question")
+    a_string(program, f"{where}: program")
+    return values
+
+
 def a_list(value, where):
     need(type(value) is list, f"{where} is not a list")
     return value

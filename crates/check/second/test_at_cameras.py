@@ -64,7 +64,9 @@ class HereTests(unittest.TestCase):
         self.verifies(changed("line", "bodies", 0, {"seed": [0, 2], "add": [], "merge": merge}))
 
     def test_document(self):
-        self.refused("another format or version", "line", "version", 2)
+        self.refused("version is not 3", "line", "version", 4)
+        self.refused("not read any more", "line", "version", 1)
+        self.refused("member model is unknown|is missing", "line", "question", "intrinsics")
         self.refused("no such model", "line", "model", "conformal")
         self.refused("there is no member|is missing", "line", "pieces", ...)
         self.refused("no member|is missing|unknown", "line", "claim", "rank", "required", ...)
@@ -197,7 +199,7 @@ class HereTests(unittest.TestCase):
         self.refused("verdict: value", "line", "claim", "verdict", "value", "determined")
         self.refused("rank: required", "line", "claim", "rank", "required", 30)
         self.refused("components: value", "line", "claim", "components", "value", 4)
-        self.refused("components: strength", "line", "claim", "components", "strength", "error-bound")
+        self.refused("components: strength", "line", "claim", "components", {"value": 3, "strength": "error-bound", "error_log2": -100})
 
 
 def core_bound(done):

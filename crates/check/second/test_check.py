@@ -114,7 +114,7 @@ class Notation(Case):
         self.text_rejected('"nodes": 4', '"nodes": true', "nodes is not an int")
         self.text_rejected('"nodes": 4', '"nodes": "4"', "nodes is not an int")
         self.text_rejected('"draw": 0', '"draw": false', "draw is not an int")
-        self.text_rejected('"version": 2', '"version": true', "version")
+        self.text_rejected('"version": 3', '"version": true', "version")
 
     def test_bigs(self):
         for big in ('"011"', '"+11"', '"-0"', '" 11"', '"11.0"', '""', '"1_1"', '"\u0661\u0661"', "11"):
@@ -267,9 +267,12 @@ class Document(Case):
             return change
 
         for path, value, words in (
-            (["version"], 1, "version 1"),
-            (["version"], 3, "version"),
+            (["version"], 1, "version 1 is not read any more; write the certificate anew"),
+            (["version"], 2, "version 2 is not read any more; write the certificate anew"),
+            (["version"], 4, "version is not 3"),
             (["format"], "other", "format"),
+            (["question"], "specific", "no such question"),
+            (["question"], ["generic"], "no such question"),
             (["program"], None, "program is not a string"),
             (["model"], "euclidean", "no such model"),
             (["graph", "name"], 4, "name is not a string"),
@@ -288,6 +291,8 @@ class Document(Case):
             (["claim", "rank"], {"value": 28, "strength": "proof", "error_log2": None}, "required is missing"),
         ):
             self.broken(document, put(path, value), "section 3", words)
+        for question, name in (("at-cameras", "cameras"), ("intrinsics", "classes"), ("contradictions", "database")):
+            self.broken(document, put(["question"], question), f"the member {name} is missing")
 
         def weak(other):
             other["claim"]["rank"].update(strength="error-bound", error_log2=-99)
@@ -1366,7 +1371,7 @@ class Program(unittest.TestCase):
                 "rigs.txt": b"displacements " + b"A" * 64,
                 "mixed.jsonl": (text + "\n{\n").encode(),
                 "blank.jsonl": ("\n \t\r\n" + text + "\n\n").encode(),
-                "named.json": text.replace('"name": "4-cycle"', '"name": "viewcert certificate at cameras"').encode(),
+                "named.json": text.replace('"name": "4-cycle"', '"name": "at-cameras"').encode(),
                 "empty.json": b"",
                 "named.txt": b"left right\n",
                 "report.json": b'{"program": {"name": "verify"}, "graph": {"nodes": 3}}',

@@ -72,7 +72,8 @@ class Contradictions(unittest.TestCase):
 
         first = self.document["packings"][0]["cycles"][0]["walk"]
         cases = [
-            ("format or version", lambda d: d.update(version=2)),
+            ("version is not 3", lambda d: d.update(version=4)),
+            ("not read any more", lambda d: d.update(format="viewcert certificate of contradictions", version=1)),
             ("program", lambda d: d.update(program=1)),
             ("64 digits", lambda d: d.update(database="0" * 63)),
             ("two of one name", lambda d: d.update(images=d["images"][:-1] + d["images"][:1])),

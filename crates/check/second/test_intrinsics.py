@@ -125,7 +125,8 @@ class IntrinsicsTests(unittest.TestCase):
         self.verifies(document)
 
     def test_document(self):
-        self.refused("another format or version", self.changed("pair", "version", 2))
+        self.refused("version is not 3", self.changed("pair", "version", 4))
+        self.refused("not read any more", self.changed("pair", "version", 1))
         self.refused("is missing", self.changed("pair", "motion", ...))
         self.refused("is unknown", {**named("pair"), "model": "projective"})
         self.refused("it supposes none", named("pair"), given_data=b"part 0 1\n")

@@ -23,7 +23,7 @@ pub(crate) struct Built {
 }
 
 /// What is known besides the pairs: bodies from the start. At most one of the two is not empty.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 pub(crate) struct Known<'a> {
     /// Known parts (theory, Theorem 4.14).
     pub parts: &'a [Vec<u32>],

@@ -254,7 +254,7 @@ fn decide(
 
 /// Compares a claimed with the found value, and the claimed strength with that of a statement that
 /// rests on these errors.
-fn compare<C: Display, F: Display>(
+pub(crate) fn compare<C: Display, F: Display>(
     (value, found): (&C, F),
     (strength, error_log2): (&str, Option<i64>),
     errors: Checked<Vec<i64>>,

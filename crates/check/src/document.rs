@@ -17,8 +17,8 @@ pub(crate) type Pair = [u32; 2];
 
 objects! {
     Document {
-        format: Format, version: Version, program: String, graph: GraphName, model: Model,
-        displacements: Optional<Vec<Vec<u32>>>, vectors: Optional<Vec<Vec<[Big<i128>; 3]>>>,
+        format: Format, version: Version, question: Question, program: String, graph: GraphName,
+        model: Model, displacements: Optional<Vec<Vec<u32>>>, vectors: Optional<Vec<Vec<[Big<i128>; 3]>>>,
         claim: Claims, bodies: Vec<Body>,
         rigid: Members, pieces: Vec<Piece>, solutions: Optional<Solutions>,
         parts: Optional<Vec<Vec<u32>>>, base_lines: Optional<BaseLines>,
@@ -63,25 +63,55 @@ impl Value for Format {
     }
 }
 
-/// The member `version`, which is refused as soon as it is read: what follows is of its version.
+/// The member `version`, which is refused as soon as it is read: what else there is depends on it.
 #[derive(Debug)]
 pub(crate) struct Version;
 
 impl Value for Version {
     fn read<'de, D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         match u64::read(from)? {
-            1 => Err(D::Error::custom(
-                "version 1: its draws were not bound to the core; write the certificate again",
-            )),
-            2 => Ok(Version),
+            3 => Ok(Version),
+            old @ ..3 => Err(D::Error::custom(format!(
+                "version {old} is not read any more; write the certificate anew: \
+                 `verify GRAPH --certificate FILE`"
+            ))),
             other => Err(D::Error::custom(format!(
-                "version {other} is unknown to this program, which checks version 2"
+                "version {other} is unknown to this program, which checks version 3"
             ))),
         }
     }
 }
 
-/// The question: unknown or known intrinsic parameters, or affine cameras.
+/// The member `question`: what a certificate is about, and which members it has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Question {
+    /// Which cameras generic ones determine.
+    Generic,
+    /// Which are determined at given cameras (section 14).
+    AtCameras,
+    /// Which intrinsics are determined (section 15).
+    Intrinsics,
+    /// How many measured motions contradict each other (docs/contradictions.md).
+    Contradictions,
+}
+
+impl Value for Question {
+    fn read<'de, D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        Ok(match String::read(from)?.as_str() {
+            "generic" => Self::Generic,
+            "at-cameras" => Self::AtCameras,
+            "intrinsics" => Self::Intrinsics,
+            "contradictions" => Self::Contradictions,
+            other => {
+                return Err(D::Error::custom(format!(
+                    "`{other}` is not a question: `generic`, `at-cameras`, `intrinsics` or `contradictions`"
+                )));
+            }
+        })
+    }
+}
+
+/// The cameras: unknown or known intrinsic parameters, or affine ones.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Model {
     /// Finite or unique solvability from fundamental matrices.

@@ -2,7 +2,7 @@
 //! every hypothesis, and means none, and the projective model, otherwise.
 
 use crate::document::Model;
-use crate::kinds::AnyVerified;
+use crate::kinds::Answer;
 
 /// The words for verdicts of all kinds of certificates.
 pub const VERDICTS: [&str; 8] = [
@@ -51,7 +51,7 @@ impl Expected {
     }
 
     /// In what a verified certificate differs from what is expected.
-    pub fn differences(&self, verified: &AnyVerified) -> Vec<String> {
+    pub fn differences(&self, verified: &Answer) -> Vec<String> {
         let mut found = Vec::new();
         let mut see = |differs: bool, what: String| found.extend(differs.then_some(what));
         for (what, strength) in verified.unproved() {
@@ -75,7 +75,7 @@ impl Expected {
         };
         // Motions are measured between calibrated cameras: there is no other model to be named.
         let unasked = match verified {
-            AnyVerified::Contradictions(_) => Model::Calibrated,
+            Answer::Contradictions(_) => Model::Calibrated,
             _ => Model::Projective,
         };
         see(
@@ -99,14 +99,14 @@ impl Expected {
     }
 
     /// What is supposed and was not named, or is named and was not supposed.
-    fn hypotheses(&self, verified: &AnyVerified) -> Vec<String> {
+    fn hypotheses(&self, verified: &Answer) -> Vec<String> {
         let mut found = Vec::new();
         let mut see = |differs: bool, what: String| found.extend(differs.then_some(what));
         let (mut centres, mut classes) = (None, None);
         match verified {
-            AnyVerified::AtCameras(verified) => centres = Some(&verified.centres_sha256),
-            AnyVerified::Intrinsics(verified) => classes = Some(&verified.classes_sha256),
-            AnyVerified::Generic(verified) if !self.given => {
+            Answer::AtCameras(verified) => centres = Some(&verified.centres_sha256),
+            Answer::Intrinsics(verified) => classes = Some(&verified.classes_sha256),
+            Answer::Generic(verified) if !self.given => {
                 let parts = verified.parts;
                 see(
                     parts > 0,
@@ -129,7 +129,7 @@ impl Expected {
                     );
                 }
             }
-            AnyVerified::Generic(_) | AnyVerified::Contradictions(_) => {}
+            Answer::Generic(_) | Answer::Contradictions(_) => {}
         }
         for (what, option, found, named) in [
             ("cameras are given", "--centres", centres, &self.centres),

@@ -1,7 +1,7 @@
 //! A strict reading of JSON (sections 1 and 3 of the specification). `serde_json` reads the text;
 //! what is here sees to it that each value is of its own type and each member is there, once.
 
-use crate::rejection::{Checked, Failure, ensure};
+use crate::rejection::{Checked, Failure};
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Unexpected, Visitor};
 use std::borrow::Cow;
 use std::fmt;
@@ -46,13 +46,6 @@ pub(crate) fn parse<T: Value>(text: &[u8]) -> Checked<T> {
     let document = serde_json::from_slice(text);
     let Strict(document) = document.map_err(|error| Failure::rejected(error.to_string()))?;
     Ok(document)
-}
-
-/// Sees that a certificate is of a format, and of its first version.
-pub(crate) fn ensure_first((format, wanted): (&str, &str), version: u64) -> Checked<()> {
-    ensure!(format == wanted, "`format` is not \"{wanted}\"");
-    ensure!(version == 1, "version {version} is unknown to this program");
-    Ok(())
 }
 
 /// Section 1, *int*. `serde_json` hands on what has a fraction, an exponent or a minus before zero
@@ -125,6 +118,12 @@ impl<'de, T: Value> Visitor<'de> for List<T> {
             list.push(entry);
         }
         Ok(list)
+    }
+}
+
+impl<T: Value> Value for Box<T> {
+    fn read<'de, D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        T::read(from).map(Box::new)
     }
 }
 

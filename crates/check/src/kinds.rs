@@ -1,53 +1,61 @@
-//! A certificate of whichever kind: its member `format` says which, and it is read once.
+//! A certificate of whichever question: the member says which, and the text is read once.
 
-use crate::at_cameras::{self, HereCertificate, VerifiedHere};
-use crate::contradictions::{self, ContradictionsCertificate, VerifiedContradictions};
-use crate::document::Model;
-use crate::intrinsics::{self, IntrinsicsCertificate, VerifiedIntrinsics};
-use crate::json::Name;
-use crate::rejection::ensure;
-use crate::{Certificate, Failure, Graph, Limits, Strength, Verified};
+use crate::at_cameras::{self, VerifiedHere};
+use crate::contradictions::{self, Database, VerifiedContradictions};
+use crate::document::{Document, GraphName, Model, Question, Version};
+use crate::intrinsics::{self, VerifiedIntrinsics};
+use crate::json::{Name, Strict, parse};
+use crate::limits::Meter;
+use crate::rejection::{Checked, ensure};
+use crate::{Failure, Graph, Limits, Strength, Unreadable, Verified, check_generic};
 use serde::de::{Deserializer, IgnoredAny, MapAccess, Visitor};
 use std::fmt;
 
-/// A certificate of any kind that has been parsed, but not verified.
+/// A certificate that has been parsed, but not verified.
 #[derive(Debug)]
-pub enum AnyCertificate {
-    /// About generic cameras.
-    Generic(Box<Certificate>),
-    /// At given cameras (section 14 of the specification).
-    AtCameras(Box<HereCertificate>),
-    /// Of intrinsics (section 15).
-    Intrinsics(Box<IntrinsicsCertificate>),
-    /// Of contradictions between measured motions (docs/contradictions.md).
-    Contradictions(Box<ContradictionsCertificate>),
+pub struct Certificate(Of);
+
+/// Its document, by its question.
+#[derive(Debug)]
+enum Of {
+    Generic(Box<Document>),
+    AtCameras(Box<at_cameras::Document>),
+    Intrinsics(Box<intrinsics::Document>),
+    Contradictions(Box<contradictions::Document>),
 }
 
-impl AnyCertificate {
+impl Certificate {
     /// Reads the JSON text.
     ///
     /// # Errors
     /// What is wrong with it.
     pub fn parse(text: &[u8]) -> Result<Self, Failure> {
-        Ok(match format_of(text).as_deref() {
-            Some(at_cameras::FORMAT) => Self::AtCameras(Box::new(HereCertificate::parse(text)?)),
-            Some(intrinsics::FORMAT) => {
-                Self::Intrinsics(Box::new(IntrinsicsCertificate::parse(text)?))
-            }
-            Some(contradictions::FORMAT) => {
-                Self::Contradictions(Box::new(ContradictionsCertificate::parse(text)?))
-            }
-            _ => Self::Generic(Box::new(Certificate::parse(text)?)),
-        })
+        Ok(Certificate(match question_of(text)? {
+            Some(Question::AtCameras) => Of::AtCameras(parse(text)?),
+            Some(Question::Intrinsics) => Of::Intrinsics(parse(text)?),
+            Some(Question::Contradictions) => Of::Contradictions(parse(text)?),
+            // Where there is no question, this says so.
+            Some(Question::Generic) | None => Of::Generic(parse(text)?),
+        }))
+    }
+
+    /// The question.
+    pub fn question(&self) -> Question {
+        match self.0 {
+            Of::Generic(_) => Question::Generic,
+            Of::AtCameras(_) => Question::AtCameras,
+            Of::Intrinsics(_) => Question::Intrinsics,
+            Of::Contradictions(_) => Question::Contradictions,
+        }
     }
 
     /// The graph that it names; one of contradictions is about motions.
-    fn graph(&self) -> Option<&crate::document::GraphName> {
-        match self {
-            Self::Generic(certificate) => Some(&certificate.0.graph),
-            Self::AtCameras(certificate) => Some(&certificate.0.graph),
-            Self::Intrinsics(certificate) => Some(&certificate.0.graph),
-            Self::Contradictions(_) => None,
+    fn graph(&self) -> Option<&GraphName> {
+        match &self.0 {
+            Of::Generic(document) => Some(&document.graph),
+            Of::AtCameras(document) => Some(&document.graph),
+            Of::Intrinsics(document) => Some(&document.graph),
+            Of::Contradictions(_) => None,
         }
     }
 
@@ -60,52 +68,60 @@ impl AnyCertificate {
     ///
     /// # Errors
     /// If what it holds is no graph.
-    pub fn held_graph(&self) -> Result<Option<Graph>, crate::Unreadable> {
-        self.graph().map_or(Ok(None), |graph| graph.held())
+    pub fn held_graph(&self) -> Result<Option<Graph>, Unreadable> {
+        self.graph().map_or(Ok(None), GraphName::held)
     }
 
-    /// The model that it says it is about, if its kind has several.
+    /// The model that it says it is about, if its question has several.
     pub fn model(&self) -> Option<Model> {
-        match self {
-            Self::Generic(certificate) => Some(certificate.0.model),
-            Self::AtCameras(certificate) => Some(certificate.0.model),
-            Self::Intrinsics(_) | Self::Contradictions(_) => None,
+        match &self.0 {
+            Of::Generic(document) => Some(document.model),
+            Of::AtCameras(document) => Some(document.model),
+            Of::Intrinsics(_) | Of::Contradictions(_) => None,
         }
     }
 
-    /// See [`crate::check`].
+    /// Verifies it: for the graph, with what is known besides, or else the one that it holds, with what it states; of
+    /// contradictions for the database, or else the numbers that it holds.
     ///
     /// # Errors
     /// The first thing that cannot be verified, or not within the limits.
-    pub fn check_within(
+    pub fn check(
         &self,
         graph: Option<&Graph>,
+        database: Option<&Database>,
         limits: &Limits,
-    ) -> Result<AnyVerified, Failure> {
-        Ok(match self {
-            Self::Generic(certificate) => {
-                AnyVerified::Generic(Box::new(certificate.check_within(graph, limits)?))
+    ) -> Result<Answer, Failure> {
+        let meter = &Meter::new(limits);
+        let is_of_motions = self.question() == Question::Contradictions;
+        ensure!(
+            graph.is_none() || !is_of_motions,
+            "it is about motions, and not about a graph: `verify check` compares it with a database"
+        );
+        ensure!(
+            database.is_none() || is_of_motions,
+            "it is about a graph, and not about a database"
+        );
+        Ok(match &self.0 {
+            Of::Generic(document) => {
+                Answer::Generic(Box::new(check_generic(document, graph, meter)?))
             }
-            Self::AtCameras(certificate) => {
-                AnyVerified::AtCameras(Box::new(certificate.check_within(graph, limits)?))
+            Of::AtCameras(document) => {
+                Answer::AtCameras(Box::new(at_cameras::check(document, graph, meter)?))
             }
-            Self::Intrinsics(certificate) => {
-                AnyVerified::Intrinsics(Box::new(certificate.check_within(graph, None, limits)?))
+            Of::Intrinsics(document) => {
+                Answer::Intrinsics(Box::new(intrinsics::check(document, graph, meter)?))
             }
-            Self::Contradictions(certificate) => {
-                ensure!(
-                    graph.is_none(),
-                    "it is about motions, and not about a graph: `verify check` compares it with a database"
-                );
-                AnyVerified::Contradictions(Box::new(certificate.check_within(None, limits)?))
+            Of::Contradictions(document) => {
+                Answer::Contradictions(Box::new(contradictions::check(document, database, meter)?))
             }
         })
     }
 }
 
-/// What a certificate of any kind proves.
+/// What a certificate proves, by its question.
 #[derive(Clone, Debug)]
-pub enum AnyVerified {
+pub enum Answer {
     /// About generic cameras.
     Generic(Box<Verified>),
     /// At given cameras.
@@ -116,7 +132,7 @@ pub enum AnyVerified {
     Contradictions(Box<VerifiedContradictions>),
 }
 
-impl AnyVerified {
+impl Answer {
     /// The verdict, in the word of the specification.
     pub fn verdict(&self) -> String {
         match self {
@@ -189,7 +205,7 @@ impl AnyVerified {
     }
 }
 
-impl fmt::Display for AnyVerified {
+impl fmt::Display for Answer {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Generic(verified) => verified.fmt(f),
@@ -200,9 +216,9 @@ impl fmt::Display for AnyVerified {
     }
 }
 
-/// The member `format` of an object, as far as it can be read.
-pub(crate) fn format_of(text: &[u8]) -> Option<String> {
-    struct Head<'a>(&'a mut Option<String>);
+/// The member `question`, read before all others; of an earlier version, which has none, the member `version` is refused.
+pub(crate) fn question_of(text: &[u8]) -> Checked<Option<Question>> {
+    struct Head<'a>(&'a mut Option<Question>);
 
     impl<'de> Visitor<'de> for Head<'_> {
         type Value = ();
@@ -213,19 +229,24 @@ pub(crate) fn format_of(text: &[u8]) -> Option<String> {
 
         fn visit_map<A: MapAccess<'de>>(self, mut object: A) -> Result<(), A::Error> {
             while let Some(name) = object.next_key::<Name>()? {
-                if name.as_str() == "format" {
-                    // Nothing that follows matters: this ends the reading.
-                    *self.0 = Some(object.next_value()?);
-                    return Ok(());
+                match name.as_str() {
+                    // Whoever knows the question reads what follows.
+                    "question" => {
+                        *self.0 = Some(object.next_value::<Strict<_>>()?.0);
+                        return Ok(());
+                    }
+                    "version" => drop(object.next_value::<Strict<Version>>()?),
+                    _ => drop(object.next_value::<IgnoredAny>()?),
                 }
-                object.next_value::<IgnoredAny>()?;
             }
             Ok(())
         }
     }
 
-    let mut format = None;
-    // The rest of the text is read, and refused if need be, by whoever knows the kind.
-    let _ = serde_json::Deserializer::from_slice(text).deserialize_map(Head(&mut format));
-    format
+    let mut question = None;
+    let read = serde_json::Deserializer::from_slice(text).deserialize_map(Head(&mut question));
+    match (question, read) {
+        (None, Err(error)) => Err(Failure::rejected(error.to_string())),
+        (question, _) => Ok(question),
+    }
 }

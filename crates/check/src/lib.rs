@@ -76,18 +76,16 @@ mod solutions;
 mod structure;
 mod vectors;
 
-pub use at_cameras::{HereCertificate, VerifiedHere};
+pub use at_cameras::VerifiedHere;
 pub use base_lines::BaseLines;
 pub use claim::{Strength, Verdict, Verified};
-pub use contradictions::{
-    AtLeast, ContradictionsCertificate, Database, Row, VerifiedContradictions,
-};
+pub use contradictions::{AtLeast, Database, Row, VerifiedContradictions};
 pub use displacements::Displacements;
-pub use document::Model;
+pub use document::{Model, Question};
 pub use expected::{Expected, VERDICTS};
 pub use graph::Graph;
-pub use intrinsics::{IntrinsicsCertificate, VerifiedIntrinsics};
-pub use kinds::{AnyCertificate, AnyVerified};
+pub use intrinsics::VerifiedIntrinsics;
+pub use kinds::{Answer, Certificate};
 pub use limits::Limits;
 pub use own_frame::OwnFrame;
 pub use rejection::{Failure, Rejection, TooLarge, Unreadable};
@@ -95,8 +93,8 @@ pub use solutions::Count;
 
 use rejection::{Within, ensure};
 
-/// Verifies a certificate, for the given graph with its known parts and displacements or, without
-/// one, for the graph that it holds with what it states.
+/// Verifies a certificate about generic cameras, for the given graph with its known parts and
+/// displacements or, without one, for the graph that it holds with what it states.
 ///
 /// Takes time linear in the certificate and the graph, plus the elimination of the matrices of the
 /// pieces' cores.
@@ -105,7 +103,7 @@ use rejection::{Within, ensure};
 /// The first thing that cannot be verified.
 ///
 /// ```
-/// let certificate = br#"{"format": "viewcert certificate", "version": 2, "program": "by hand",
+/// let certificate = br#"{"format": "viewcert certificate", "version": 3, "question": "generic", "program": "by hand",
 ///     "graph": {"name": "a pair", "nodes": 2, "edges": 1, "graph6": "A_",
 ///         "sha256": "1a2922f94e61dd3386d10331aca4a4e92403b8e12be0532bcbc2ddaf95da33eb"},
 ///     "model": "projective",
@@ -117,128 +115,91 @@ use rejection::{Within, ensure};
 /// assert_eq!(verified.verdict.0, viewcert_check::Verdict::Solvable);
 /// ```
 pub fn check(certificate: &[u8], graph: Option<&Graph>) -> Result<Verified, Failure> {
-    Certificate::parse(certificate)?.check(graph)
+    match Certificate::parse(certificate)?.check(graph, None, &Limits::default())? {
+        Answer::Generic(verified) => Ok(*verified),
+        _ => Err(Failure::rejected("it is not about generic cameras")),
+    }
 }
 
-/// A certificate that has been parsed, but not verified.
-#[derive(Debug)]
-pub struct Certificate(document::Document);
-
-impl Certificate {
-    /// Reads the JSON text.
-    ///
-    /// # Errors
-    /// What is wrong with it.
-    pub fn parse(text: &[u8]) -> Result<Certificate, Failure> {
-        json::parse(text).map(Certificate)
+/// Verifies a certificate about generic cameras.
+fn check_generic(
+    document: &document::Document,
+    graph: Option<&Graph>,
+    meter: &limits::Meter,
+) -> Result<Verified, Failure> {
+    let (name, model) = (&document.graph, document.model);
+    let given = graph.filter(|graph| !graph.as_stated);
+    let (graph, sha256) = name.find(graph).within(|| "graph".into())?;
+    let parts = parts::check(document.parts.0.as_ref(), graph.nodes(), given);
+    let parts = parts.within(|| "parts".into())?;
+    let groups = document.displacements.0.as_deref();
+    let known = groups.map(|groups| {
+        let vectors = document.vectors.0.as_deref();
+        let known = displacements::check_groups(groups, model, graph.nodes(), parts, vectors);
+        known.within(|| "displacements".into())
+    });
+    let known = known.transpose()?;
+    let vectors = document.vectors.0.as_deref().map(|vectors| {
+        let known = vectors::check_vectors(vectors, groups, graph.nodes());
+        known.within(|| "vectors".into())
+    });
+    let vectors = vectors.transpose()?;
+    if let Some(given) = given {
+        let agree = displacements::check_given(known.as_ref(), given);
+        agree.within(|| "displacements".into())?;
     }
-
-    /// The hash of the graph that the certificate names, to find that graph in a file of many.
-    pub fn graph_sha256(&self) -> &str {
-        &self.0.graph.sha256
+    let own_frame = own_frame::Supposed::new(document, graph.nodes());
+    let own_frame = own_frame.within(|| "own_frame".into())?;
+    if own_frame.is_none() {
+        own_frame::check_none(given).within(|| "own_frame".into())?;
     }
-
-    /// The graph that the certificate holds, if it does, without known parts.
-    ///
-    /// # Errors
-    /// If what it holds is no graph.
-    pub fn held_graph(&self) -> Result<Option<Graph>, Unreadable> {
-        self.0.graph.held()
-    }
-
-    /// See [`check`]; within the default limits.
-    ///
-    /// # Errors
-    /// The first thing that cannot be verified.
-    pub fn check(&self, graph: Option<&Graph>) -> Result<Verified, Failure> {
-        self.check_within(graph, &Limits::default())
-    }
-
-    /// See [`check`].
-    ///
-    /// # Errors
-    /// The first thing that cannot be verified, or not within the limits.
-    pub fn check_within(
-        &self,
-        graph: Option<&Graph>,
-        limits: &Limits,
-    ) -> Result<Verified, Failure> {
-        let Certificate(document) = self;
-        let (name, model) = (&document.graph, document.model);
-        let given = graph.filter(|graph| !graph.as_stated);
-        let (graph, sha256) = name.find(graph).within(|| "graph".into())?;
-        let parts = parts::check(document.parts.0.as_ref(), graph.nodes(), given);
-        let parts = parts.within(|| "parts".into())?;
-        let meter = &limits::Meter::new(limits);
-        let groups = document.displacements.0.as_deref();
-        let known = groups.map(|groups| {
-            let vectors = document.vectors.0.as_deref();
-            let known = displacements::check_groups(groups, model, graph.nodes(), parts, vectors);
-            known.within(|| "displacements".into())
-        });
-        let known = known.transpose()?;
-        let vectors = document.vectors.0.as_deref().map(|vectors| {
-            let known = vectors::check_vectors(vectors, groups, graph.nodes());
-            known.within(|| "vectors".into())
-        });
-        let vectors = vectors.transpose()?;
-        if let Some(given) = given {
-            let agree = displacements::check_given(known.as_ref(), given);
-            agree.within(|| "displacements".into())?;
-        }
-        let own_frame = own_frame::Supposed::new(document, graph.nodes());
-        let own_frame = own_frame.within(|| "own_frame".into())?;
-        if own_frame.is_none() {
-            own_frame::check_none(given).within(|| "own_frame".into())?;
-        }
-        let from_start = bodies::Known {
-            parts,
-            groups: groups.unwrap_or_default(),
-        };
-        let setting = &setting::Setting {
-            model,
-            sha256,
-            vectors: vectors.as_ref(),
-            own_frame: own_frame.as_ref().and_then(|own| own.vectors.as_ref()),
-            meter,
-        };
-        let bodies = (from_start, &document.bodies[..]);
-        let structure = &structure::Structure::new(&graph, setting, bodies)?;
-        let pieces = evidence::check_pieces(
-            &document.rigid,
-            &document.pieces,
-            structure,
-            &structure.everything,
-        )?;
-        let evidence = document.solutions.0.as_ref().map(|evidence| {
-            let members = (&structure.everything, name.nodes);
-            let count = solutions::check(evidence, structure, &pieces, members);
-            count.within(|| "solutions".into())
-        });
-        let count = evidence.transpose()?;
-        ensure!(
-            count.is_some() || pieces.iter().all(|piece| !piece.by_solutions),
-            "`one-solution` in a piece, and no `solutions`"
-        );
-        let scaled: Vec<_> = pieces
-            .iter()
-            .flat_map(|piece| piece.scaled.clone())
-            .collect();
-        let joined = structure.count_joined(&scaled);
-        let found = (&pieces[..], count);
-        let verified = claim::verify(&document.claim, name, (model, known), found, joined);
-        let verified = verified.within(|| "claim".into())?;
-        let base_lines = base_lines::check(document, structure, given);
-        let claim = document.claim.own_frame.0.as_ref();
-        let own_frame = own_frame.as_ref().zip(claim).map(|(own_frame, claim)| {
-            let found = own_frame.check(claim, structure, (graph.nodes(), given));
-            found.within(|| "own_frame".into())
-        });
-        Ok(Verified {
-            own_frame: own_frame.transpose()?,
-            parts: parts.len(),
-            base_lines: base_lines.within(|| "base_lines".into())?,
-            ..verified
-        })
-    }
+    let from_start = bodies::Known {
+        parts,
+        groups: groups.unwrap_or_default(),
+    };
+    let setting = &setting::Setting {
+        model,
+        sha256,
+        vectors: vectors.as_ref(),
+        own_frame: own_frame.as_ref().and_then(|own| own.vectors.as_ref()),
+        meter,
+    };
+    let bodies = (from_start, &document.bodies[..]);
+    let structure = &structure::Structure::new(&graph, setting, bodies)?;
+    let pieces = evidence::check_pieces(
+        &document.rigid,
+        &document.pieces,
+        structure,
+        &structure.everything,
+    )?;
+    let evidence = document.solutions.0.as_ref().map(|evidence| {
+        let members = (&structure.everything, name.nodes);
+        let count = solutions::check(evidence, structure, &pieces, members);
+        count.within(|| "solutions".into())
+    });
+    let count = evidence.transpose()?;
+    ensure!(
+        count.is_some() || pieces.iter().all(|piece| !piece.by_solutions),
+        "`one-solution` in a piece, and no `solutions`"
+    );
+    let scaled: Vec<_> = pieces
+        .iter()
+        .flat_map(|piece| piece.scaled.clone())
+        .collect();
+    let joined = structure.count_joined(&scaled);
+    let found = (&pieces[..], count);
+    let verified = claim::verify(&document.claim, name, (model, known), found, joined);
+    let verified = verified.within(|| "claim".into())?;
+    let base_lines = base_lines::check(document, structure, given);
+    let claim = document.claim.own_frame.0.as_ref();
+    let own_frame = own_frame.as_ref().zip(claim).map(|(own_frame, claim)| {
+        let found = own_frame.check(claim, structure, (graph.nodes(), given));
+        found.within(|| "own_frame".into())
+    });
+    Ok(Verified {
+        own_frame: own_frame.transpose()?,
+        parts: parts.len(),
+        base_lines: base_lines.within(|| "base_lines".into())?,
+        ..verified
+    })
 }

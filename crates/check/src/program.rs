@@ -1,8 +1,8 @@
 //! `viewcert-check CERTIFICATE [GRAPH]`: arguments and files in, what was verified out.
 
-use crate::kinds::format_of;
+use crate::kinds::question_of;
 use crate::rejection::escaped;
-use crate::{AnyCertificate, Expected, Failure, Graph, Limits, Model, Unreadable, VERDICTS};
+use crate::{Certificate, Expected, Failure, Graph, Limits, Model, Question, Unreadable, VERDICTS};
 use lexopt::Arg::{Long, Short, Value};
 use lexopt::ValueExt;
 use std::ffi::OsString;
@@ -255,10 +255,8 @@ fn check(arguments: &Arguments) -> Result<u8, Stop> {
             no_certificate(swapped)
         )));
     }
-    let certificate = LazyLock::new(|| AnyCertificate::parse(&text));
-    if let (Some((path, _)), Some(crate::contradictions::FORMAT)) =
-        (&file, format_of(&text).as_deref())
-    {
+    let certificate = LazyLock::new(|| Certificate::parse(&text));
+    if let (Some((path, _)), Ok(Some(Question::Contradictions))) = (&file, question_of(&text)) {
         return Err(Stop::no_answer(format!(
             "{}: this program reads no database; `verify check` compares the numbers of this certificate with it; \
              without the file they are checked as they are written",
@@ -272,7 +270,7 @@ fn check(arguments: &Arguments) -> Result<u8, Stop> {
         }
         let wanted = || {
             let certificate = LazyLock::force(&certificate).as_ref();
-            certificate.ok().map(AnyCertificate::graph_sha256)
+            certificate.ok().map(Certificate::graph_sha256)
         };
         let graph = |(path, file): &Opened| Graph::read(file, wanted).map_err(in_file(path));
         file.as_ref().map(graph)
@@ -288,7 +286,7 @@ fn check(arguments: &Arguments) -> Result<u8, Stop> {
         }
     };
     let checked = match &*certificate {
-        Ok(certificate) => certificate.check_within(graph.as_ref(), &arguments.limits),
+        Ok(certificate) => certificate.check(graph.as_ref(), None, &arguments.limits),
         Err(failure) => Err(failure.clone()),
     };
     let verified = match checked {

@@ -44,7 +44,18 @@ pub(crate) struct Setting<'a> {
     pub meter: &'a Meter,
 }
 
-impl Setting<'_> {
+impl<'a> Setting<'a> {
+    /// That of a graph alone.
+    pub(crate) fn bare(model: Model, sha256: [u8; 32], meter: &'a Meter) -> Self {
+        Setting {
+            model,
+            sha256,
+            vectors: None,
+            own_frame: None,
+            meter,
+        }
+    }
+
     /// Whether nodes that merge are independent (section 3), as all are in general position.
     pub(crate) fn check_independent(&self, nodes: &[u32]) -> Checked<()> {
         ensure!(

@@ -1,7 +1,7 @@
 //! Certificates at given cameras: what is verified, and each condition of section 14 broken once.
 
 use serde_json::{Value, json};
-use viewcert_check::{Failure, HereCertificate, Limits, Strength, VerifiedHere};
+use viewcert_check::{Answer, Certificate, Failure, Limits, Strength, VerifiedHere};
 
 fn named(name: &str) -> Value {
     let path = format!(
@@ -12,8 +12,11 @@ fn named(name: &str) -> Value {
 }
 
 fn check(document: &Value) -> Result<VerifiedHere, Failure> {
-    let certificate = HereCertificate::parse(document.to_string().as_bytes())?;
-    certificate.check_within(None, &Limits::default())
+    let certificate = Certificate::parse(document.to_string().as_bytes())?;
+    match certificate.check(None, None, &Limits::default())? {
+        Answer::AtCameras(verified) => Ok(*verified),
+        other => panic!("{other}"),
+    }
 }
 
 /// A certificate with another value at the place of a JSON pointer.
@@ -56,12 +59,20 @@ fn what_is_verified() {
 #[test]
 fn the_document() {
     refused(
-        "version 2 is unknown",
-        &changed("line", "/version", json!(2)),
+        "version 4 is unknown",
+        &changed("line", "/version", json!(4)),
+    );
+    refused(
+        "version 1 is not read any more; write the certificate anew",
+        &changed("line", "/version", json!(1)),
     );
     refused(
         "`format` is not",
-        &changed("line", "/format", json!("viewcert certificate")),
+        &changed("line", "/format", json!("viewcert certificate at cameras")),
+    );
+    refused(
+        "`cameras` does not belong there",
+        &changed("line", "/question", json!("intrinsics")),
     );
     refused(
         "is not a model",
@@ -302,19 +313,23 @@ fn classes() {
 #[test]
 fn the_claim() {
     refused(
-        "the verdict is not-determined",
+        "the evidence gives `not-determined`",
         &changed("line", "/claim/verdict/value", json!("determined")),
     );
     refused(
-        "the rank is 25 of 29",
+        "the evidence gives `25`",
+        &changed("line", "/claim/rank/value", json!(26)),
+    );
+    refused(
+        "rank.required is 29, not 30",
         &changed("line", "/claim/rank/required", json!(30)),
     );
     refused(
-        "there are 3 components",
+        "the evidence gives `3`",
         &changed("line", "/claim/components/value", json!(4)),
     );
     refused(
-        "there are 3 components",
+        "`error-bound` is no strength with this `error_log2`",
         &changed("line", "/claim/components/strength", json!("error-bound")),
     );
 }
@@ -322,22 +337,22 @@ fn the_claim() {
 /// What is too large for the limits is not rejected.
 #[test]
 fn limits() {
-    let certificate = HereCertificate::parse(named("psi").to_string().as_bytes()).unwrap();
+    let certificate = Certificate::parse(named("psi").to_string().as_bytes()).unwrap();
     let limits = Limits {
         core: 3,
         ..Limits::default()
     };
-    let failure = certificate.check_within(None, &limits).unwrap_err();
+    let failure = certificate.check(None, None, &limits).unwrap_err();
     assert!(matches!(failure, Failure::TooLarge(_)), "{failure}");
     // What numbers cost goes by the square of their length, the chart by that of the nodes, primes by their number.
     let cost = |document: &Value| {
-        let certificate = HereCertificate::parse(document.to_string().as_bytes()).unwrap();
+        let certificate = Certificate::parse(document.to_string().as_bytes()).unwrap();
         let failure = |operations: u64| {
             let limits = Limits {
                 operations,
                 ..Limits::default()
             };
-            certificate.check_within(None, &limits).err()
+            certificate.check(None, None, &limits).err()
         };
         let is_enough =
             |&operations: &u64| !matches!(failure(operations), Some(Failure::TooLarge(_)));

@@ -146,7 +146,7 @@ def section():
 The 4-cycle, with edges 0-1, 0-3, 1-2, 2-3 (graph6 `Cl`), modulo 11, so that every number can be followed with a pencil.
 
 ```json
-{{"format": "viewcert certificate", "version": 2, "program": "by hand",
+{{"format": "viewcert certificate", "version": 3, "question": "generic", "program": "by hand",
  "graph": {{"name": "4-cycle", "nodes": 4, "edges": 4,
   "sha256": "{graph.hex()}", "graph6": "Cl"}},
  "model": "projective",

@@ -1632,7 +1632,7 @@ fn section_11_limits() {
         let text = named(name).to_string();
         Certificate::parse(text.as_bytes())
             .unwrap()
-            .check_within(None, limits)
+            .check(None, None, limits)
     };
     let all = Limits::default;
     for (name, enough, limits, option) in [

@@ -87,7 +87,7 @@ class Source:
 
     def document(self, packings, upper):
         return {
-            "format": "viewcert certificate of contradictions", "version": 1, "program": "contradict.py",
+            "format": "viewcert certificate", "version": 3, "question": "contradictions", "program": "contradict.py",
             "database": self.check.hash_of_database(), "images": self.names, "pairs": self.pairs, "excluded": self.excluded,
             "packings": packings, "upper": upper,
         }

@@ -3,7 +3,7 @@
 
 use serde_json::{Value, json};
 use std::sync::LazyLock;
-use viewcert_check::{ContradictionsCertificate, Database, Limits, Row, VerifiedContradictions};
+use viewcert_check::{Answer, Certificate, Database, Limits, Row, VerifiedContradictions};
 
 static CERTIFICATE: LazyLock<Value> = LazyLock::new(|| {
     serde_json::from_str(include_str!("contradictions/certificate.json")).unwrap()
@@ -36,9 +36,12 @@ fn bytes(digits: &str) -> Vec<u8> {
 
 fn check(document: &Value, database: Option<&Database>) -> Result<VerifiedContradictions, String> {
     let text = document.to_string();
-    let certificate = ContradictionsCertificate::parse(text.as_bytes());
-    let checked = certificate.and_then(|one| one.check_within(database, &Limits::default()));
-    checked.map_err(|failure| failure.to_string())
+    let certificate = Certificate::parse(text.as_bytes());
+    let checked = certificate.and_then(|one| one.check(None, database, &Limits::default()));
+    match checked.map_err(|failure| failure.to_string())? {
+        Answer::Contradictions(verified) => Ok(*verified),
+        other => panic!("{other}"),
+    }
 }
 
 /// A reason, and a change of something that gives it.
@@ -99,9 +102,14 @@ fn each_condition_about_numbers_is_needed() {
         None,
         &[
             ("`format` is not", |d| {
-                d["format"] = json!("viewcert certificate")
+                d["format"] = json!("viewcert certificate of contradictions")
             }),
-            ("version 2", |d| d["version"] = json!(2)),
+            ("version 1 is not read any more", |d| {
+                d["version"] = json!(1)
+            }),
+            ("`specific` is not a question", |d| {
+                d["question"] = json!("specific")
+            }),
             ("no images", |d| d["images"] = json!([])),
             ("one name", |d| d["images"][1] = json!("1.jpg")),
             ("64 digits", |d| d["database"] = json!("0".repeat(63))),
@@ -370,14 +378,14 @@ fn rows_that_are_no_table_are_refused() {
 
 #[test]
 fn limits_are_kept() {
-    let certificate = ContradictionsCertificate::parse(CERTIFICATE.to_string().as_bytes()).unwrap();
+    let certificate = Certificate::parse(CERTIFICATE.to_string().as_bytes()).unwrap();
     for operations in [1 << 15, 1 << 20] {
         let limits = Limits {
             operations,
             ..Limits::default()
         };
         let found = certificate
-            .check_within(Some(&DATABASE), &limits)
+            .check(None, Some(&DATABASE), &limits)
             .unwrap_err();
         assert!(found.to_string().contains("--max-operations"), "{found}");
     }

@@ -166,7 +166,7 @@ def problems():
 def certificate(name, nodes, edges, groups, bodies, single_members, pieces, vectors=()):
     assert edges == sorted(edges)
     document = {
-        "format": "viewcert certificate", "version": 2, "program": "displaced.py",
+        "format": "viewcert certificate", "version": 3, "question": "generic", "program": "displaced.py",
         "graph": {"name": name, "nodes": nodes, "edges": len(edges), "sha256": graph_hash(nodes, edges).hex(),
                   "graph6": graph6(nodes, edges)},
         "model": "calibrated", "displacements": groups, "claim": claim(nodes, edges, groups, vectors), "bodies": bodies,

@@ -331,7 +331,7 @@ class Filler:
         self.calibrated = self.model == "calibrated"
         self.nodes, self.edges = graph6(document["graph"]["graph6"])
         self.hash = graph_hash(self.nodes, self.edges)
-        document["version"] = 2
+        document["version"] = 3
         document["graph"]["sha256"] = self.hash.hex()
         self.groups, self.vectors = document.get("displacements", []), None
         if "vectors" in document:

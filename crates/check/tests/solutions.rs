@@ -811,7 +811,7 @@ fn s23_the_points_of_a_tight_core() {
 fn limits() {
     let with = |limits: Limits| {
         let certificate = Certificate::parse(text_of("two").to_string().as_bytes()).unwrap();
-        let checked = certificate.check_within(None, &limits);
+        let checked = certificate.check(None, None, &limits);
         checked.map_or_else(
             |failure| failure.to_string(),
             |verified| verified.to_string(),

@@ -315,34 +315,46 @@ fn one_spelling_of_everything() {
     for (name, old, new, wanted) in [
         (
             "pair",
-            "\"version\":2",
-            "\"version\":2.0",
-            "invalid type: floating point `2.0`, expected an integer below 2^53",
-        ),
-        (
-            "pair",
-            "\"version\":2",
-            "\"version\":2e0",
-            "invalid type: floating point `2.0`, expected an integer below 2^53",
-        ),
-        ("pair", "\"version\":2", "\"version\":02", "invalid number"),
-        (
-            "pair",
-            "\"version\":2",
-            "\"version\":\"2\"",
-            "invalid type: string \"2\", expected an integer below 2^53",
-        ),
-        (
-            "pair",
-            "\"version\":2",
-            "\"version\":1",
-            "version 1: its draws were not bound to the core; write the certificate again",
-        ),
-        (
-            "pair",
-            "\"version\":2",
             "\"version\":3",
-            "version 3 is unknown to this program, which checks version 2",
+            "\"version\":3.0",
+            "invalid type: floating point `3.0`, expected an integer below 2^53",
+        ),
+        (
+            "pair",
+            "\"version\":3",
+            "\"version\":3e0",
+            "invalid type: floating point `3.0`, expected an integer below 2^53",
+        ),
+        ("pair", "\"version\":3", "\"version\":03", "invalid number"),
+        (
+            "pair",
+            "\"version\":3",
+            "\"version\":\"3\"",
+            "invalid type: string \"3\", expected an integer below 2^53",
+        ),
+        (
+            "pair",
+            "\"version\":3,\"question\":\"generic\"",
+            "\"version\":2",
+            "version 2 is not read any more; write the certificate anew: `verify GRAPH --certificate FILE`",
+        ),
+        (
+            "pair",
+            "\"version\":3",
+            "\"version\":4",
+            "version 4 is unknown to this program, which checks version 3",
+        ),
+        (
+            "pair",
+            "\"generic\"",
+            "\"any\"",
+            "`any` is not a question: `generic`, `at-cameras`, `intrinsics` or `contradictions`",
+        ),
+        (
+            "pair",
+            "\"generic\"",
+            "\"contradictions\"",
+            "the member `graph` does not belong there",
         ),
         (
             "pair",

@@ -1,4 +1,4 @@
-//! The certificate of contradictions as written: docs/contradictions.md, version 1.
+//! The certificate of contradictions as written: docs/contradictions.md.
 
 use super::Contradictions;
 use super::packing::Packing;
@@ -11,6 +11,7 @@ use viewcert_formats::{Motion, Motions};
 pub struct Certificate<'a> {
     format: &'static str,
     version: u32,
+    question: &'static str,
     program: &'static str,
     database: Option<&'a str>,
     images: Vec<String>,
@@ -57,8 +58,9 @@ pub fn certificate<'a>(motions: &'a Motions, found: &Contradictions) -> Certific
     let packings = [Some(&found.packing), supposed].into_iter().chain(others);
     let names = (0..motions.images as u32).map(|image| motions.labels.label(image));
     Certificate {
-        format: "viewcert certificate of contradictions",
-        version: 1,
+        format: "viewcert certificate",
+        version: 3,
+        question: "contradictions",
         program: concat!("viewcert ", env!("CARGO_PKG_VERSION")),
         database: motions.hash.as_deref(),
         images: names.map(|name| name.into_owned()).collect(),

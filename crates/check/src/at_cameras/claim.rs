@@ -3,8 +3,9 @@
 use super::Found;
 use super::centres::Centres;
 use super::document::Document;
+use crate::claim::compare;
 use crate::document::Model;
-use crate::rejection::{Checked, ensure};
+use crate::rejection::{Checked, Within, ensure};
 use crate::{Graph, Strength};
 use std::fmt;
 
@@ -27,16 +28,20 @@ pub struct VerifiedHere {
     /// The rank that determines.
     pub required: i64,
     /// The number of components at these cameras.
-    pub components: (i64, Strength),
+    pub components: (usize, Strength),
 }
 
 impl VerifiedHere {
     /// The verdict, in the word of the specification.
     pub fn verdict(&self) -> &'static str {
-        match self.is_determined {
-            true => "determined",
-            false => "not-determined",
-        }
+        word(self.is_determined)
+    }
+}
+
+fn word(is_determined: bool) -> &'static str {
+    match is_determined {
+        true => "determined",
+        false => "not-determined",
     }
 }
 
@@ -61,20 +66,6 @@ impl fmt::Display for VerifiedHere {
     }
 }
 
-/// The strength of what rests on several errors (section 8).
-fn strength(errors: &[i64]) -> Checked<Strength> {
-    let Some(&worst) = errors.iter().max() else {
-        return Ok(Strength::Proof);
-    };
-    let more = i64::from(64 - (errors.len() as u64 - 1).leading_zeros());
-    ensure!(
-        worst + more <= -100,
-        "the errors add up to 2^{}",
-        worst + more
-    );
-    Ok(Strength::ErrorBound(worst + more))
-}
-
 /// The claim is what was found (H11).
 pub(super) fn claim(
     document: &Document,
@@ -83,38 +74,31 @@ pub(super) fn claim(
     centres: &Centres,
 ) -> Checked<VerifiedHere> {
     let claims = &document.claim;
-    let (of_rank, of_components) = (strength(&found.errors)?, strength(&found.inner)?);
     let required = document.model.required(graph.nodes());
     let is_determined = found.rank == required;
-    let verdict = if is_determined {
-        "determined"
-    } else {
-        "not-determined"
-    };
-    let same = |name: &str, error: Option<i64>, strength: Strength| match strength {
-        Strength::Proof => name == "proof" && error.is_none(),
-        Strength::ErrorBound(e) => name == "error-bound" && error == Some(e),
-    };
     ensure!(
-        claims.verdict.value == verdict
-            && same(&claims.verdict.strength, claims.verdict.error_log2, of_rank),
-        "the verdict is {verdict} ({of_rank})"
+        claims.rank.required == required,
+        "rank.required is {required}, not {}",
+        claims.rank.required
     );
-    ensure!(
-        (claims.rank.value, claims.rank.required) == (found.rank, required)
-            && same(&claims.rank.strength, claims.rank.error_log2, of_rank),
-        "the rank is {} of {required} ({of_rank})",
-        found.rank
+    let claim = &claims.verdict;
+    let verdict = compare(
+        (&claim.value, word(is_determined)),
+        (&claim.strength, claim.error_log2),
+        Ok(found.errors.clone()),
     );
-    ensure!(
-        claims.components.value == found.components
-            && same(
-                &claims.components.strength,
-                claims.components.error_log2,
-                of_components
-            ),
-        "there are {} components ({of_components})",
-        found.components
+    verdict.within(|| "verdict".into())?;
+    let claim = &claims.rank;
+    let rank = compare(
+        (&claim.value, found.rank),
+        (&claim.strength, claim.error_log2),
+        Ok(found.errors.clone()),
+    );
+    let claim = &claims.components;
+    let components = compare(
+        (&claim.value, found.components),
+        (&claim.strength, claim.error_log2),
+        Ok(found.inner.clone()),
     );
     Ok(VerifiedHere {
         size: [graph.nodes(), graph.pairs.len()],
@@ -122,8 +106,8 @@ pub(super) fn claim(
         centres_sha256: crate::graph::hex(&centres.sha256),
         model: document.model,
         is_determined,
-        rank: (found.rank, of_rank),
+        rank: rank.within(|| "rank".into())?,
         required,
-        components: (found.components, of_components),
+        components: components.within(|| "components".into())?,
     })
 }

@@ -9,80 +9,49 @@ mod primes;
 
 pub use claim::VerifiedHere;
 
+use crate::Graph;
 use crate::algebra::Field;
 use crate::bodies::Known;
 use crate::core::Core;
 use crate::document::{Members, Model};
 use crate::draws;
 use crate::elimination::Echelon;
-use crate::json::{ensure_first, parse};
 use crate::kernel::{check_apart, edge_motion, plane_motion};
 use crate::limits::Meter;
 use crate::matrices::{bearings, plane_direction};
-use crate::rejection::{Checked, Failure, Within, ensure};
+use crate::rejection::{Checked, Within, ensure};
 use crate::setting::Setting;
 use crate::structure::{Part, Structure};
-use crate::{Graph, Limits};
 use centres::Centres;
 use claim::claim;
-pub(crate) use document::FORMAT;
-use document::{Class, Document, Piece, Split};
+pub(crate) use document::Document;
+use document::{Class, Piece, Split};
 use primes::{Primes, bound, error};
 
-/// A certificate at given cameras that has been parsed, but not verified.
-#[derive(Debug)]
-pub struct HereCertificate(pub(crate) Document);
-
-impl HereCertificate {
-    /// Reads the JSON text.
-    ///
-    /// # Errors
-    /// What is wrong with it.
-    pub fn parse(text: &[u8]) -> Result<Self, Failure> {
-        let document: Document = parse(text)?;
-        ensure_first((&document.format, FORMAT), document.version)?;
-        Ok(HereCertificate(document))
-    }
-
-    /// Verifies it, for the given graph or the one that it holds.
-    ///
-    /// # Errors
-    /// The first thing that cannot be verified, or not within the limits.
-    pub fn check_within(
-        &self,
-        graph: Option<&Graph>,
-        limits: &Limits,
-    ) -> Result<VerifiedHere, Failure> {
-        let HereCertificate(document) = self;
-        Graph::ensure_bare(graph)?;
-        let (graph, sha256) = document.graph.find(graph).within(|| "graph".into())?;
-        let meter = &Meter::new(limits);
-        let centres = Centres::new(document, &graph, meter).within(|| "centres".into())?;
-        centres.check_bodies(document)?;
-        let centres = &centres;
-        let setting = &Setting {
-            model: document.model,
-            sha256,
-            vectors: None,
-            own_frame: None,
-            meter,
-        };
-        let known = Known {
-            parts: &[],
-            groups: &[],
-        };
-        let structure = &Structure::new(&graph, setting, (known, &document.bodies))?;
-        let checker = Checker { structure, centres };
-        let found = checker.section(&document.rigid, &document.pieces, &structure.everything)?;
-        claim(document, &found, &graph, centres).within(|| "claim".into())
-    }
+/// Verifies a certificate at given cameras, for the given graph or the one that it holds.
+pub(crate) fn check(
+    document: &Document,
+    graph: Option<&Graph>,
+    meter: &Meter,
+) -> Checked<VerifiedHere> {
+    Graph::ensure_bare(graph)?;
+    let (graph, sha256) = document.graph.find(graph).within(|| "graph".into())?;
+    let centres = Centres::new(document, &graph, meter).within(|| "centres".into())?;
+    centres.check_bodies(document)?;
+    let centres = &centres;
+    let setting = &Setting::bare(document.model, sha256, meter);
+    let bodies = (Known::default(), &document.bodies[..]);
+    let structure = &Structure::new(&graph, setting, bodies)?;
+    let checker = Checker { structure, centres };
+    let found = checker.section(&document.rigid, &document.pieces, &structure.everything)?;
+    claim(document, &found, &graph, centres).within(|| "claim".into())
 }
 
 /// What a part of a certificate shows.
 #[derive(Default)]
 struct Found {
     rank: i64,
-    components: i64,
+    components: usize,
     /// The errors of the pieces, and of all pieces inside of classes.
     errors: Vec<i64>,
     inner: Vec<i64>,

@@ -1,14 +1,12 @@
 //! The JSON text of a certificate of contradictions (docs/contradictions.md, sections 2 to 4).
 
+use crate::document::{Format, Question, Version};
 use crate::json::objects;
-
-/// What the member `format` says.
-pub(crate) const FORMAT: &str = "viewcert certificate of contradictions";
 
 objects! {
     Document {
-        format: String, version: u64, program: String, database: Option<String>, images: Vec<String>,
-        pairs: Vec<Pair>, excluded: Vec<Pair>, packings: Vec<Packing>, upper: Vec<Upper>,
+        format: Format, version: Version, question: Question, program: String,
+        database: Option<String>, images: Vec<String>, pairs: Vec<Pair>, excluded: Vec<Pair>, packings: Vec<Packing>, upper: Vec<Upper>,
     }
     Pair { ends: [usize; 2], configuration: Option<i64>, q: [i64; 4], t: Option<[i64; 3]> }
     Packing {

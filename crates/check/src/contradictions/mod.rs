@@ -6,13 +6,11 @@ mod document;
 mod motions;
 
 pub use database::{Database, Row};
-pub(crate) use document::FORMAT;
+pub(crate) use document::Document;
 
-use crate::Limits;
-use crate::json::{ensure_first, parse};
 use crate::limits::Meter;
-use crate::rejection::{Checked, Failure, Within, ensure};
-use document::{Cycle, Document, Packing, Pair, Upper};
+use crate::rejection::{Checked, Within, ensure};
+use document::{Cycle, Packing, Pair, Upper};
 use motions::{ONE, Quaternion, big, conjugate, cosines, dot, product, square, turned};
 use num_bigint::BigInt;
 use std::collections::{BTreeMap, BTreeSet};
@@ -20,10 +18,6 @@ use std::fmt;
 
 /// Operations for a step of a cycle, or a pair.
 const STEP: u64 = 1 << 14;
-
-/// A certificate of contradictions that has been parsed, but not verified.
-#[derive(Debug)]
-pub struct ContradictionsCertificate(Document);
 
 /// What a certificate of contradictions proves.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -54,62 +48,44 @@ pub struct AtLeast {
     pub pairs: u64,
 }
 
-impl ContradictionsCertificate {
-    /// Reads the JSON text.
-    ///
-    /// # Errors
-    /// What is wrong with it.
-    pub fn parse(text: &[u8]) -> Result<Self, Failure> {
-        let document: Document = parse(text)?;
-        ensure_first((&document.format, FORMAT), document.version)?;
-        Ok(Self(document))
+/// Verifies a certificate, and with a database that its numbers are those of that database.
+pub(crate) fn check(
+    document: &Document,
+    database: Option<&Database>,
+    meter: &Meter,
+) -> Checked<VerifiedContradictions> {
+    ensure_well_formed(document)?;
+    let cosines = &cosines();
+    let proof = &Proof {
+        document,
+        cosines,
+        meter,
+    };
+    for (k, packing) in document.packings.iter().enumerate() {
+        let checked = proof.packing(packing);
+        checked.within(|| format!("packings[{k}]"))?;
     }
-
-    /// Verifies it, and with a database that its numbers are those of that database.
-    ///
-    /// # Errors
-    /// The first thing that cannot be verified, or not within the limits.
-    pub fn check_within(
-        &self,
-        database: Option<&Database>,
-        limits: &Limits,
-    ) -> Result<VerifiedContradictions, Failure> {
-        let Self(document) = self;
-        let meter = &Meter::new(limits);
-        ensure_well_formed(document)?;
-        let cosines = cosines();
-        let cosines = &cosines;
-        let proof = &Proof {
-            document,
-            cosines,
-            meter,
-        };
-        for (k, packing) in document.packings.iter().enumerate() {
-            let checked = proof.packing(packing);
-            checked.within(|| format!("packings[{k}]"))?;
-        }
-        for (k, upper) in document.upper.iter().enumerate() {
-            let checked = proof.upper(upper);
-            checked.within(|| format!("upper[{k}]"))?;
-        }
-        if let Some(database) = database {
-            database.bind(document, meter)?;
-        }
-        let at_least = document.packings.iter().map(|packing| AtLeast {
-            theta: packing.theta,
-            phi: packing.phi,
-            assumed: [packing.assumed.len(), packing.assumed_within],
-            pairs: packing.at_least,
-        });
-        let at_most = document.upper.iter();
-        Ok(VerifiedContradictions {
-            size: [document.images.len(), document.pairs.len()],
-            database: document.database.clone(),
-            bound: database.is_some(),
-            at_least: at_least.collect(),
-            at_most: at_most.map(|upper| (upper.theta, upper.at_most)).collect(),
-        })
+    for (k, upper) in document.upper.iter().enumerate() {
+        let checked = proof.upper(upper);
+        checked.within(|| format!("upper[{k}]"))?;
     }
+    if let Some(database) = database {
+        database.bind(document, meter)?;
+    }
+    let at_least = document.packings.iter().map(|packing| AtLeast {
+        theta: packing.theta,
+        phi: packing.phi,
+        assumed: [packing.assumed.len(), packing.assumed_within],
+        pairs: packing.at_least,
+    });
+    let at_most = document.upper.iter();
+    Ok(VerifiedContradictions {
+        size: [document.images.len(), document.pairs.len()],
+        database: document.database.clone(),
+        bound: database.is_some(),
+        at_least: at_least.collect(),
+        at_most: at_most.map(|upper| (upper.theta, upper.at_most)).collect(),
+    })
 }
 
 /// Types and ranges (C1), and which pairs may be there (C2).

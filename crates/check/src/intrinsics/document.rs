@@ -1,15 +1,12 @@
 //! The JSON text of a certificate of intrinsics (section 15 of the specification).
 
-use crate::document::{Body, GraphName};
+use crate::document::{Body, Format, GraphName, Question, Version};
 use crate::json::{Big, Optional, objects};
-
-/// What the member `format` says.
-pub(crate) const FORMAT: &str = "viewcert certificate of intrinsics";
 
 objects! {
     Document {
-        format: String, version: u64, program: String, graph: GraphName, classes: Vec<String>,
-        shared: Optional<Vec<Vec<u32>>>,
+        format: Format, version: Version, question: Question, program: String, graph: GraphName,
+        classes: Vec<String>, shared: Optional<Vec<Vec<u32>>>,
         claim: Claim, bodies: Vec<Body>, prime: Big<u64>, seed: Big<u64>, draw: u64,
         rows: Vec<usize>, cols: Vec<usize>, motion: Vec<Big<u64>>,
     }

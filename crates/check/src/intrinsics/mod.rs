@@ -6,21 +6,19 @@ mod members;
 mod sensors;
 mod system;
 
+use crate::Graph;
 use crate::algebra::Field;
 use crate::bodies::Known;
 use crate::cameras::Stream;
 use crate::document::Model;
 use crate::elimination::{Echelon, Factors, SPARSE};
 use crate::graph::hex;
-use crate::json::{ensure_first, parse};
 use crate::limits::Meter;
 use crate::pivots::Pivots;
-use crate::rejection::{Checked, Failure, Within, ensure};
+use crate::rejection::{Checked, Within, ensure};
 use crate::setting::Setting;
 use crate::structure::Structure;
-use crate::{Graph, Limits};
-use document::Document;
-pub(crate) use document::FORMAT;
+pub(crate) use document::Document;
 use members::Members;
 use sensors::{Class, Sensors};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -80,63 +78,27 @@ impl fmt::Display for VerifiedIntrinsics {
     }
 }
 
-/// A certificate of intrinsics that has been parsed, but not verified.
-#[derive(Debug)]
-pub struct IntrinsicsCertificate(pub(crate) Document);
-
-impl IntrinsicsCertificate {
-    /// Reads the JSON text.
-    ///
-    /// # Errors
-    /// What is wrong with it.
-    pub fn parse(text: &[u8]) -> Result<Self, Failure> {
-        let document: Document = parse(text)?;
-        ensure_first((&document.format, FORMAT), document.version)?;
-        Ok(IntrinsicsCertificate(document))
-    }
-
-    /// Verifies it, for the given graph or the one that it holds; if a hash of the classes is given, for
-    /// no others.
-    ///
-    /// # Errors
-    /// The first thing that cannot be verified, or not within the limits.
-    pub fn check_within(
-        &self,
-        graph: Option<&Graph>,
-        classes_sha256: Option<&str>,
-        limits: &Limits,
-    ) -> Result<VerifiedIntrinsics, Failure> {
-        let IntrinsicsCertificate(document) = self;
-        Graph::ensure_bare(graph)?;
-        let (graph, sha256) = document.graph.find(graph).within(|| "graph".into())?;
-        let sensors = &Sensors::new(document, &graph).within(|| "classes".into())?;
-        let hash = sensors.hash(&document.classes);
-        ensure!(
-            classes_sha256.is_none_or(|expected| expected == hex(&hash)),
-            "the classes that are expected have another hash"
-        );
-        let setting = &Setting {
-            model: Model::default(),
-            sha256,
-            vectors: None,
-            own_frame: None,
-            meter: &Meter::new(limits),
-        };
-        let known = Known {
-            parts: &[],
-            groups: &[],
-        };
-        let structure = &Structure::new(&graph, setting, (known, &document.bodies))?;
-        let members = &Members::new(structure, sensors)?;
-        let checker = Checker {
-            document,
-            sensors,
-            members,
-            setting,
-            hash,
-        };
-        checker.check(&graph)
-    }
+/// Verifies a certificate of intrinsics, for the given graph or the one that it holds.
+pub(crate) fn check(
+    document: &Document,
+    graph: Option<&Graph>,
+    meter: &Meter,
+) -> Checked<VerifiedIntrinsics> {
+    Graph::ensure_bare(graph)?;
+    let (graph, sha256) = document.graph.find(graph).within(|| "graph".into())?;
+    let sensors = &Sensors::new(document, &graph).within(|| "classes".into())?;
+    let setting = &Setting::bare(Model::default(), sha256, meter);
+    let bodies = (Known::default(), &document.bodies[..]);
+    let structure = &Structure::new(&graph, setting, bodies)?;
+    let members = &Members::new(structure, sensors)?;
+    let checker = Checker {
+        document,
+        sensors,
+        members,
+        setting,
+        hash: sensors.hash(&document.classes),
+    };
+    checker.check(&graph)
 }
 
 struct Checker<'a> {

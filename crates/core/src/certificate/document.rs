@@ -19,6 +19,7 @@ objects! {
     Document<'a> {
         format: &'static str,
         version: u32,
+        question: &'static str,
         program: &'static str,
         graph: GraphView<'a>,
         model: &'static str,
@@ -106,7 +107,8 @@ impl<'a> Document<'a> {
         }
         Ok(Self {
             format: "viewcert certificate",
-            version: 2,
+            version: 3,
+            question: "generic",
             program: concat!("viewcert ", env!("CARGO_PKG_VERSION")),
             graph: GraphView::new((graph, name), &verdict.sha256, embed),
             model: verdict.model.name(),

@@ -9,7 +9,7 @@ use crate::graph::graph6;
 /// and the loose edge are pieces by themselves: 18 + 7 = 25 of 11 * 4 - 15 = 29. The digest is by
 /// Python's hashlib; in graph6 the bits are 111001, that is 57, and 57 + 63 is x.
 const EXPECTED: &str = concat!(
-    r#"{"format":"viewcert certificate","version":2,"program":"viewcert "#,
+    r#"{"format":"viewcert certificate","version":3,"question":"generic","program":"viewcert "#,
     env!("CARGO_PKG_VERSION"),
     r#"","graph":{"name":"a \"triangle\"","nodes":4,"edges":4,"sha256":""#,
     "d16f62c51a7f7a70f8bc7aaa9931dd7d7608c19a0df6187f90c46f1bb043ea26",

@@ -17,6 +17,7 @@ objects! {
     HereDocument<'a> {
         format: &'static str,
         version: u32,
+        question: &'static str,
         program: &'static str,
         graph: GraphView<'a>,
         model: &'static str,
@@ -55,8 +56,9 @@ impl Here {
     ) -> io::Result<()> {
         let determined = |is: bool| if is { "determined" } else { "not-determined" };
         let document = HereDocument {
-            format: "viewcert certificate at cameras",
-            version: 1,
+            format: "viewcert certificate",
+            version: 3,
+            question: "at-cameras",
             program: concat!("viewcert ", env!("CARGO_PKG_VERSION")),
             graph: GraphView::new((graph, name), &sha256(graph), embed),
             model: self.model.name(),

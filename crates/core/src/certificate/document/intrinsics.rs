@@ -12,6 +12,7 @@ objects! {
     IntrinsicsDocument<'a> {
         format: &'static str,
         version: u32,
+        question: &'static str,
         program: &'static str,
         graph: GraphView<'a>,
         classes: Vec<&'static str>,
@@ -84,8 +85,9 @@ impl Certified {
             merge: body.merge.iter().map(MergeView::new).collect(),
         });
         IntrinsicsDocument {
-            format: "viewcert certificate of intrinsics",
-            version: 1,
+            format: "viewcert certificate",
+            version: 3,
+            question: "intrinsics",
             program: concat!("viewcert ", env!("CARGO_PKG_VERSION")),
             graph: GraphView::new((graph, name), &verdict.sha256, embed),
             classes: self.classes.iter().map(|class| class.word()).collect(),
