@@ -548,7 +548,7 @@ fn truncations_repetitions_and_other_graphs() {
         );
     }
     assert_eq!(check(&format!("{text}{text}")).code, 1);
-    let twice = text.replacen("\"version\":2", "\"version\":2,\"version\":2", 1);
+    let twice = text.replacen("\"version\":3", "\"version\":3,\"version\":3", 1);
     assert_ne!(twice, text);
     assert_eq!(check(&twice).code, 1);
 

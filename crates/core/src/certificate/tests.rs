@@ -39,7 +39,7 @@ fn a_triangle_with_a_pendant_edge() {
     assert_eq!(joined + "\n", EXPECTED);
     for line in [
         "{",
-        " \"version\":2,",
+        " \"version\":3,",
         " \"claim\":{",
         "  \"verdict\":{",
         "   \"value\":25,",
