@@ -177,6 +177,10 @@ fn centres_in_a_plane() {
         assert_eq!(run.code, 0);
         assert_eq!(run.json()[0]["planar"]["verdict"], verdict);
     }
+    // A plane does not keep two optical axes from meeting, so the promise says it there too.
+    let run = verify_with(graph.as_bytes(), &["-", "--model", "focal", "--planar"]);
+    let words = "  in a plane  solvable: the cameras are unique if no pair has its optical axes in one plane (proved)";
+    assert!(run.code == 0 && run.out.contains(words), "{}", run.out);
     // Two parts are not joined by a plane either: 4 * 2 + 3 * 2 = 14 of 29.
     let run = verify_with(
         edge_list([(0, 1), (2, 3)]).as_bytes(),

@@ -41,11 +41,14 @@ const TURN_MORE: &str = "frames turn about more than one axis";
 const NO_PLANE: &str = "the centres do not all lie in one plane";
 
 /// The answer for centres that are generic in one plane. All of it is proved.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Planar {
     verdict: &'static str,
     rank: usize,
     rank_required: usize,
+    /// What the promise rests on besides.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    condition: Option<String>,
 }
 
 impl Planar {
@@ -69,6 +72,7 @@ impl Planar {
             verdict,
             rank,
             rank_required,
+            condition: None,
         })
     }
 
@@ -79,17 +83,15 @@ impl Planar {
 
     /// The answer in words.
     pub fn words(&self) -> String {
+        let (rank, required) = (self.rank, self.rank_required);
+        let condition = self.condition.as_ref();
+        let condition = condition.map_or_else(String::new, |condition| format!(" {condition}"));
         let answer = if self.is_determined() {
-            "solvable: the cameras are unique"
+            format!("solvable: the cameras are unique{condition}")
         } else {
-            "not-finite-solvable: infinitely many sets of cameras"
+            "not-finite-solvable: infinitely many sets of cameras".to_owned()
         };
-        let Self {
-            rank,
-            rank_required,
-            ..
-        } = self;
-        format!("{answer} (proved), rank {rank} of {rank_required}")
+        format!("{answer} (proved), rank {rank} of {required}")
     }
 }
 
@@ -379,10 +381,13 @@ impl Scope {
             && verdict.own_frame.is_none()
             && input.graph.edges().len() <= UNASKED
             && !is_rigid_by_triangles(verdict);
-        let planar = (asked.planar || may_hide)
+        let mut planar = (asked.planar || may_hide)
             .then(|| Planar::new(&input.graph, verdict, verdict.model, watch))
             .transpose()?;
-        let hidden = is_good && planar.is_some_and(|planar| !planar.is_determined());
+        let hidden = is_good
+            && planar
+                .as_ref()
+                .is_some_and(|planar| !planar.is_determined());
         let (mut conditions, mut provided) = (Vec::new(), Vec::new());
         if asked.focal {
             conditions.push(FOCAL.to_owned());
@@ -434,6 +439,9 @@ impl Scope {
         }
         let photographs = condition::of_photographs(input, Model::Calibrated);
         let condition = condition::with(photographs, &provided);
+        if let Some(planar) = planar.as_mut().filter(|planar| planar.is_determined()) {
+            planar.condition.clone_from(&condition);
+        }
         if let Some((found, _)) = base_lines
             .as_mut()
             .filter(|(found, _)| found.is_determined())

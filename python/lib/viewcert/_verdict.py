@@ -83,6 +83,7 @@ class Planar:
         "``'solvable'`` (the cameras are unique, in all models) or ``'not-finite-solvable'``."]
     rank: Annotated[int, "The rank for centres that are generic in a plane."]
     required: Annotated[int, "The rank without which there are infinitely many sets of cameras."]
+    condition: Annotated[Optional[str], "What ``'solvable'`` rests on besides."] = None
 
 
 @dataclass(frozen=True)
