@@ -80,8 +80,6 @@ const MOST: u32 = 179;
 /// Cycles of a pair beside those without common pairs, for up to so many pairs in doubt.
 const MORE: usize = 16;
 const DOUBTS: usize = 2000;
-/// Triangles of a pair that leave it choice enough.
-const CHOICE: usize = 64;
 /// The angle that is not enough for an alarm, and worth half a sentence.
 const FINER: u32 = 5;
 
@@ -182,24 +180,18 @@ fn open_cycles(web: &Web, doubts: &[u32], terms: &Terms) -> Vec<Cycle> {
     doubts.iter().for_each(|&k| is_doubtful[k as usize] = true);
     let (mut used, nothing) = (is_doubtful.clone(), vec![false; web.motions.len()]);
     let is_free = |is_used: &[bool], pair: u32| !is_used[pair as usize] || terms.is_assumed(pair);
-    let near = |is_used: &[bool], walk: &[Step]| {
-        walk[1..].iter().all(|step| is_free(is_used, step.0)) && is_open(walk)
-    };
-    // Who has few triangles chooses first: a pair that is off by little more than three times theta.
     let mut doubts = doubts.to_vec();
     let degree = |image: u32| web.at(image).len();
-    doubts.sort_by_cached_key(|&pair| {
+    doubts.sort_by_key(|&pair| {
         let [i, j] = web.motions[pair as usize].images;
-        let triangles = web.triangles(pair).filter(|walk| near(&is_doubtful, walk));
-        (
-            triangles.take(CHOICE).count(),
-            degree(i).min(degree(j)),
-            pair,
-        )
+        (degree(i).min(degree(j)), pair)
     });
     let (mut found, mut further) = (Vec::new(), Vec::new());
     let are_few = doubts.len() <= DOUBTS && (web.motions.len() <= ALL || terms.assumed.is_empty());
     for &pair in &doubts {
+        let near = |is_used: &[bool], walk: &[Step]| {
+            walk[1..].iter().all(|step| is_free(is_used, step.0)) && is_open(walk)
+        };
         let around = |is_used: &[bool]| {
             let cost = |other| is_free(is_used, other).then(|| terms.within(other));
             let walk = web.around(pair, 1000 * MOST - terms.within(pair), cost);

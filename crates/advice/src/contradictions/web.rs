@@ -109,10 +109,11 @@ impl<'a> Web<'a> {
             .iter()
             .filter(move |(_, back)| back.0 != pair);
         let again = again.map(move |&(_, back)| vec![one, back]);
-        let third = self
-            .at(fewer)
-            .iter()
-            .filter(move |&&(k, _)| k != i && k != j);
+        // Each pair begins elsewhere, or all would use up the pairs of the first images.
+        let here = self.at(fewer);
+        let (last, first) = here.split_at(pair as usize * 7919 % here.len().max(1));
+        let third = first.iter().chain(last);
+        let third = third.filter(move |&&(k, _)| k != i && k != j);
         let third = third.flat_map(move |&(k, near)| {
             let far = self.between(k, if j_is_fewer { i } else { j }).iter();
             far.map(move |&(_, far)| match j_is_fewer {
