@@ -70,8 +70,7 @@ def row(verify, name, text, suffix, off):
         run = subprocess.run([verify, "contradictions", "--json", path], capture_output=True, text=True)
     seconds = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
     said = json.loads(run.stdout)
-    within = said.get("assumed_within") or (said["neighbours"] or {}).get("assumed_within")
-    odometry = f"{said['neighbours']['at_least']} ({within})" if said["neighbours"] else ""
+    odometry = f"{said['neighbours']['at_least']} ({said['neighbours']['within']})" if said["neighbours"] else ""
     print(f"| {name} | {said['checkable']} | {off} | {said['at_least']} | {said['at_most']} | {odometry} | {seconds:.2f} |", flush=True)
 
 
