@@ -75,6 +75,9 @@ const MOST_LARGE: u64 = 4;
 /// Smaller cores are decided in some milliseconds, before nodes are removed.
 const LARGE: usize = 64;
 
+/// One rank of larger cores costs less than a second round of removals.
+const DEAR: usize = 512;
+
 /// Members larger than this may lose several nodes at once.
 const LARGE_MEMBER: usize = 8;
 
@@ -100,8 +103,11 @@ pub(super) fn merge(
     });
     let mut choice = Choice::default();
     // Where few nodes can go, or one rank is all that is affordable, stresses show most.
-    let is_first =
-        |state: &State| is_patient && (state.shared.len() >= LARGE || !state.loses_many());
+    let is_first = |state: &State| match state.shared.len() {
+        DEAR.. => true,
+        LARGE.. => is_patient,
+        _ => is_patient && !state.loses_many(),
+    };
     let (mut by_stresses, mut is_new) = (is_first(&state), true);
     while state.members.len() > 1 {
         let shared = state.shared.len();
