@@ -74,6 +74,7 @@ impl Builder<'_> {
             Seed::Rank(members) => self.by_rank(members),
         };
         let mut built = seed.within(|| "seed".into())?;
+        built.nodes.reserve(body.add.len());
         for (k, &[v, a, b]) in body.add.iter().enumerate() {
             let added = self.add(&mut built.nodes, v, [a, b]);
             added.within(|| format!("add[{k}]"))?;

@@ -48,12 +48,28 @@ impl Graph {
             wrong.is_none(),
             "{wrong:?} is not a pair of different nodes below {nodes}"
         );
-        // Graphs come in long runs that are sorted already, which this sort makes use of.
-        edges.sort_by_key(|&[i, j]| u64::from(i) << 32 | u64::from(j));
-        edges.dedup();
-        let mut start = vec![0; nodes + 1];
-        edges.iter().for_each(|[i, _]| start[*i as usize + 1] += 1);
-        (0..nodes).for_each(|i| start[i + 1] += start[i]);
+        let starts = |edges: &[Pair]| {
+            let mut start = vec![0; nodes + 1];
+            edges.iter().for_each(|[i, _]| start[*i as usize + 1] += 1);
+            (0..nodes).for_each(|i| start[i + 1] += start[i]);
+            start
+        };
+        let mut start = starts(&edges);
+        if !edges.is_sorted_by(|a, b| a < b) {
+            // Those of each first node, in the order of the file: in tracks that sorts them.
+            let (mut next, mut sorted) = (start.clone(), vec![[0, 0]; edges.len()]);
+            for edge in edges {
+                let place = &mut next[edge[0] as usize];
+                sorted[*place] = edge;
+                *place += 1;
+            }
+            for range in start.windows(2) {
+                sorted[range[0]..range[1]].sort_unstable();
+            }
+            sorted.dedup();
+            start = starts(&sorted);
+            edges = sorted;
+        }
         Ok(Graph {
             pairs: edges,
             start,

@@ -47,12 +47,12 @@ pub(super) fn fields(line: &[u8]) -> impl Iterator<Item = Option<u32>> {
 /// A node: decimal digits without leading zeros, below 2^32 - 1.
 fn number(field: &[u8]) -> Option<u32> {
     let is_short = matches!(field, [b'0'] | [b'1'..=b'9', ..]) && field.len() <= 10;
-    if !is_short || !field.iter().all(u8::is_ascii_digit) {
-        return None;
-    }
-    let digits = field.iter().map(|digit| u64::from(digit - b'0'));
-    let value = digits.fold(0, |value, digit| 10 * value + digit);
-    u32::try_from(value).ok().filter(|&value| value < u32::MAX)
+    let digits = is_short.then_some(field)?;
+    let value = digits.iter().try_fold(0, |value, byte| {
+        let digit = byte.wrapping_sub(b'0');
+        (digit < 10).then_some(10 * value + u64::from(digit))
+    });
+    u32::try_from(value?).ok().filter(|&value| value < u32::MAX)
 }
 
 fn of_pairs(file: &[u8]) -> Result<Graph, Unreadable> {
@@ -80,8 +80,8 @@ fn of_pairs(file: &[u8]) -> Result<Graph, Unreadable> {
 
 /// How many nodes there are: every number up to the largest occurs, those that stand alone once.
 fn count_nodes(pairs: &[(u32, u32)], alone: &[u32]) -> Result<usize, Unreadable> {
-    let paired = || pairs.iter().flat_map(|&(i, j)| [i, j]);
-    let largest = paired().chain(alone.iter().copied()).max();
+    let largest = pairs.iter().map(|&(i, j)| i.max(j)).max();
+    let largest = largest.max(alone.iter().copied().max());
     let largest = largest.ok_or_else(|| Unreadable::from("the file holds no node".to_string()))?;
     let missing = |node: usize| {
         format!(
@@ -93,9 +93,11 @@ fn count_nodes(pairs: &[(u32, u32)], alone: &[u32]) -> Result<usize, Unreadable>
     // As many are named at least, so that what is reserved is paid for by the file.
     let named = 2 * pairs.len() + alone.len();
     let mut is_there = vec![false; nodes.min(named)];
-    for node in paired() {
-        if let Some(there) = is_there.get_mut(node as usize) {
-            *there = true;
+    for &(i, j) in pairs {
+        for node in [i, j] {
+            if let Some(there) = is_there.get_mut(node as usize) {
+                *there = true;
+            }
         }
     }
     for &node in alone {
