@@ -137,7 +137,7 @@ impl Answer {
     pub fn verdict(&self) -> String {
         match self {
             Self::Generic(verified) => verified.verdict.0.to_string(),
-            Self::AtCameras(verified) => verified.verdict().into(),
+            Self::AtCameras(verified) => verified.verdict.into(),
             Self::Intrinsics(verified) => verified.verdict.into(),
             Self::Contradictions(verified) => verified.verdict().into(),
         }

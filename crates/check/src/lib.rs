@@ -133,17 +133,12 @@ fn check_generic(
     let parts = parts::check(document.parts.0.as_ref(), graph.nodes(), given);
     let parts = parts.within(|| "parts".into())?;
     let groups = document.displacements.0.as_deref();
-    let known = groups.map(|groups| {
-        let vectors = document.vectors.0.as_deref();
-        let known = displacements::check_groups(groups, model, graph.nodes(), parts, vectors);
-        known.within(|| "displacements".into())
-    });
-    let known = known.transpose()?;
-    let vectors = document.vectors.0.as_deref().map(|vectors| {
-        let known = vectors::check_vectors(vectors, groups, graph.nodes());
-        known.within(|| "vectors".into())
-    });
-    let vectors = vectors.transpose()?;
+    let vectors = document.vectors.0.as_deref();
+    let known = groups
+        .map(|groups| displacements::check_groups(groups, model, graph.nodes(), parts, vectors));
+    let known = known.transpose().within(|| "displacements".into())?;
+    let vectors = vectors.map(|vectors| vectors::check_vectors(vectors, groups, graph.nodes()));
+    let vectors = vectors.transpose().within(|| "vectors".into())?;
     if let Some(given) = given {
         let agree = displacements::check_given(known.as_ref(), given);
         agree.within(|| "displacements".into())?;
@@ -166,38 +161,28 @@ fn check_generic(
     };
     let bodies = (from_start, &document.bodies[..]);
     let structure = &structure::Structure::new(&graph, setting, bodies)?;
-    let pieces = evidence::check_pieces(
-        &document.rigid,
-        &document.pieces,
-        structure,
-        &structure.everything,
-    )?;
-    let evidence = document.solutions.0.as_ref().map(|evidence| {
-        let members = (&structure.everything, name.nodes);
-        let count = solutions::check(evidence, structure, &pieces, members);
-        count.within(|| "solutions".into())
-    });
-    let count = evidence.transpose()?;
+    let (rigid, everything) = (&document.rigid, &structure.everything);
+    let pieces = evidence::check_pieces(rigid, &document.pieces, structure, everything)?;
+    let members = (everything, name.nodes);
+    let evidence = document.solutions.0.as_ref();
+    let count = evidence.map(|evidence| solutions::check(evidence, structure, &pieces, members));
+    let count = count.transpose().within(|| "solutions".into())?;
     ensure!(
         count.is_some() || pieces.iter().all(|piece| !piece.by_solutions),
         "`one-solution` in a piece, and no `solutions`"
     );
-    let scaled: Vec<_> = pieces
-        .iter()
-        .flat_map(|piece| piece.scaled.clone())
-        .collect();
-    let joined = structure.count_joined(&scaled);
+    let scaled = pieces.iter().flat_map(|piece| piece.scaled.clone());
+    let joined = structure.count_joined(&scaled.collect::<Vec<_>>());
     let found = (&pieces[..], count);
     let verified = claim::verify(&document.claim, name, (model, known), found, joined);
     let verified = verified.within(|| "claim".into())?;
     let base_lines = base_lines::check(document, structure, given);
     let claim = document.claim.own_frame.0.as_ref();
-    let own_frame = own_frame.as_ref().zip(claim).map(|(own_frame, claim)| {
-        let found = own_frame.check(claim, structure, (graph.nodes(), given));
-        found.within(|| "own_frame".into())
-    });
+    let given = (graph.nodes(), given);
+    let own_frame = own_frame.as_ref().zip(claim);
+    let own_frame = own_frame.map(|(own_frame, claim)| own_frame.check(claim, structure, given));
     Ok(Verified {
-        own_frame: own_frame.transpose()?,
+        own_frame: own_frame.transpose().within(|| "own_frame".into())?,
         parts: parts.len(),
         base_lines: base_lines.within(|| "base_lines".into())?,
         ..verified

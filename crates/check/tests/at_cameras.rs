@@ -1,19 +1,15 @@
 //! Certificates at given cameras: what is verified, and each condition of section 14 broken once.
 
+use crate::changes::{self, answer, rejected as refused};
 use serde_json::{Value, json};
 use viewcert_check::{Answer, Certificate, Failure, Limits, Strength, VerifiedHere};
 
 fn named(name: &str) -> Value {
-    let path = format!(
-        "{}/tests/at_cameras/{name}.json",
-        env!("CARGO_MANIFEST_DIR")
-    );
-    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
+    changes::named(&format!("../at_cameras/{name}"))
 }
 
 fn check(document: &Value) -> Result<VerifiedHere, Failure> {
-    let certificate = Certificate::parse(document.to_string().as_bytes())?;
-    match certificate.check(None, None, &Limits::default())? {
+    match answer(document, None)? {
         Answer::AtCameras(verified) => Ok(*verified),
         other => panic!("{other}"),
     }
@@ -21,17 +17,7 @@ fn check(document: &Value) -> Result<VerifiedHere, Failure> {
 
 /// A certificate with another value at the place of a JSON pointer.
 fn changed(name: &str, pointer: &str, value: Value) -> Value {
-    let mut document = named(name);
-    let place = document.pointer_mut(pointer).unwrap();
-    assert_ne!(*place, value);
-    *place = value;
-    document
-}
-
-#[track_caller]
-fn refused(words: &str, document: &Value) {
-    let failure = check(document).unwrap_err().to_string();
-    assert!(failure.contains(words), "{failure}");
+    changes::changed(&format!("../at_cameras/{name}"), &[(pointer, value)])
 }
 
 #[test]
@@ -49,7 +35,7 @@ fn what_is_verified() {
         let verified = check(&named(name)).unwrap();
         assert_eq!(verified.rank, (rank, Strength::Proof), "{name}");
         assert_eq!(verified.components, (components, Strength::Proof), "{name}");
-        assert_eq!(verified.is_determined, rank == verified.required);
+        assert_eq!(verified.verdict == "determined", rank == verified.required);
     }
     let merge = json!([{"with": [[0, 3], [2, 3]], "at": [0, 2, 3]}]);
     let body = json!({"seed": [0, 2], "add": [], "merge": merge});

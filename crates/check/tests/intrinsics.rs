@@ -1,23 +1,15 @@
 //! Certificates of intrinsics: what is verified, and each condition of section 15 broken once.
 
+use crate::changes::{self, answer, rejected as refused};
 use serde_json::{Value, json};
 use viewcert_check::{Answer, Certificate, Expected, Failure, Limits, VerifiedIntrinsics};
 
 fn named(name: &str) -> Value {
-    let path = format!(
-        "{}/tests/intrinsics/{name}.json",
-        env!("CARGO_MANIFEST_DIR")
-    );
-    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
-}
-
-fn answer(document: &Value) -> Result<Answer, Failure> {
-    let certificate = Certificate::parse(document.to_string().as_bytes())?;
-    certificate.check(None, None, &Limits::default())
+    changes::named(&format!("../intrinsics/{name}"))
 }
 
 fn check(document: &Value) -> Result<VerifiedIntrinsics, Failure> {
-    match answer(document)? {
+    match answer(document, None)? {
         Answer::Intrinsics(verified) => Ok(*verified),
         other => panic!("{other}"),
     }
@@ -29,23 +21,13 @@ fn differences(document: &Value, classes: &str) -> String {
         classes: Some(classes.into()),
         ..Expected::default()
     };
-    let answer = answer(document).unwrap();
+    let answer = answer(document, None).unwrap();
     expected.differences(&answer).join("; ")
 }
 
 /// A certificate with another value at the place of a JSON pointer.
 fn changed(name: &str, pointer: &str, value: Value) -> Value {
-    let mut document = named(name);
-    let place = document.pointer_mut(pointer).unwrap();
-    assert_ne!(*place, value);
-    *place = value;
-    document
-}
-
-#[track_caller]
-fn refused(words: &str, document: &Value) {
-    let failure = check(document).unwrap_err().to_string();
-    assert!(failure.contains(words), "{failure}");
+    changes::changed(&format!("../intrinsics/{name}"), &[(pointer, value)])
 }
 
 /// Ranks, components and nodes are those of the differential of K [R | -R c], by

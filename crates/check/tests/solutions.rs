@@ -1,21 +1,16 @@
 //! Certificates for the number of solutions (section 12): for each condition one that breaks it and,
 //! as far as that can be, nothing else; with the reason that must be given.
 
+use crate::changes::{named, rejection};
 use serde_json::{Value, json};
-use std::fs;
 use std::path::Path;
 use viewcert_check::{Certificate, Count, Failure, Graph, Limits, Verdict, check};
 
 /// 2^61 - 1, the modulus of these certificates.
 const P: u64 = (1 << 61) - 1;
 
-fn named(name: &str) -> Value {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/{name}.json"));
-    serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
-}
-
 fn text_of(name: &str) -> Value {
-    named(&format!("solutions/{name}"))
+    named(&format!("../solutions/{name}"))
 }
 
 /// Where things stand that are changed most: upper and lower bound, and the merges of the first round.
@@ -49,10 +44,7 @@ fn changed(name: &str, changes: &[(&str, Value)]) -> Value {
 }
 
 fn reason(value: &Value) -> String {
-    match check(value.to_string().as_bytes(), None) {
-        Err(Failure::Rejected(rejection)) => rejection.to_string(),
-        other => panic!("not rejected: {other:?}"),
-    }
+    rejection(value, None)
 }
 
 fn refused(name: &str, changes: &[(&str, Value)], wanted: &str) {
@@ -126,7 +118,7 @@ fn what_the_laboratory_has_is_refused_by_name() {
 #[test]
 fn all_are_verified() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/solutions");
-    assert_eq!(fs::read_dir(folder).unwrap().count(), 7);
+    assert_eq!(std::fs::read_dir(folder).unwrap().count(), 7);
     for (name, solutions) in [
         ("linear", 1),
         ("support", 1),
@@ -238,7 +230,7 @@ fn claim_and_document_have_solutions_or_neither_has() {
 #[test]
 fn only_for_one_piece_that_is_finite_solvable() {
     for name in ["square", "triangle", "path", "square-calibrated"] {
-        let mut value = named(&format!("certificates/{name}"));
+        let mut value = named(name);
         value["solutions"] = json!({"upper": null, "lower": null});
         value["claim"]["solutions"] = value_at("support", "/claim/solutions");
         let wanted = "solutions: the graph is not one piece that is finite solvable, in the \
@@ -1194,7 +1186,7 @@ fn one_solution_is_finitely_many() {
     // In another model, and in one of two pieces.
     let wanted = "pieces[0].evidence[0] (one-solution): not a piece that is the whole graph";
     let graph = Graph::new(5, [(0, 1), (0, 3), (1, 2), (2, 3), (3, 4)]).unwrap();
-    let mut value = named("certificates/square");
+    let mut value = named("square");
     value["pieces"][0]["evidence"] = json!([{"kind": "one-solution"}]);
     value["model"] = json!("calibrated");
     let of_model = reason(&value);

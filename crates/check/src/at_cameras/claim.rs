@@ -21,8 +21,8 @@ pub struct VerifiedHere {
     pub centres_sha256: String,
     /// The question.
     pub model: Model,
-    /// Whether the cameras are determined.
-    pub is_determined: bool,
+    /// `determined` or `not-determined`.
+    pub verdict: &'static str,
     /// The rank at these cameras.
     pub rank: (i64, Strength),
     /// The rank that determines.
@@ -31,23 +31,9 @@ pub struct VerifiedHere {
     pub components: (usize, Strength),
 }
 
-impl VerifiedHere {
-    /// The verdict, in the word of the specification.
-    pub fn verdict(&self) -> &'static str {
-        word(self.is_determined)
-    }
-}
-
-fn word(is_determined: bool) -> &'static str {
-    match is_determined {
-        true => "determined",
-        false => "not-determined",
-    }
-}
-
 impl fmt::Display for VerifiedHere {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let is = self.verdict();
+        let is = self.verdict;
         let [nodes, edges] = self.size;
         writeln!(f, "graph {} ({nodes} nodes, {edges} edges)", self.sha256)?;
         writeln!(f, "at cameras with centres {}", self.centres_sha256)?;
@@ -75,19 +61,22 @@ pub(super) fn claim(
 ) -> Checked<VerifiedHere> {
     let claims = &document.claim;
     let required = document.model.required(graph.nodes());
-    let is_determined = found.rank == required;
+    let verdict = match found.rank == required {
+        true => "determined",
+        false => "not-determined",
+    };
     ensure!(
         claims.rank.required == required,
         "rank.required is {required}, not {}",
         claims.rank.required
     );
     let claim = &claims.verdict;
-    let verdict = compare(
-        (&claim.value, word(is_determined)),
+    let compared = compare(
+        (&claim.value, verdict),
         (&claim.strength, claim.error_log2),
         Ok(found.errors.clone()),
     );
-    verdict.within(|| "verdict".into())?;
+    compared.within(|| "verdict".into())?;
     let claim = &claims.rank;
     let rank = compare(
         (&claim.value, found.rank),
@@ -105,7 +94,7 @@ pub(super) fn claim(
         sha256: document.graph.sha256.clone(),
         centres_sha256: crate::graph::hex(&centres.sha256),
         model: document.model,
-        is_determined,
+        verdict,
         rank: rank.within(|| "rank".into())?,
         required,
         components: components.within(|| "components".into())?,

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
-use viewcert_check::{Failure, Graph, check};
+use viewcert_check::{Answer, Certificate, Failure, Graph, Limits};
 
 pub(crate) fn named(name: &str) -> Value {
     let path = format!("tests/certificates/{name}.json");
@@ -49,8 +49,13 @@ pub(crate) fn changed(name: &str, changes: &[(&str, Value)]) -> Value {
     value
 }
 
+pub(crate) fn answer(value: &Value, graph: Option<&Graph>) -> Result<Answer, Failure> {
+    let certificate = Certificate::parse(value.to_string().as_bytes())?;
+    certificate.check(graph, None, &Limits::default())
+}
+
 pub(crate) fn rejection(value: &Value, graph: Option<&Graph>) -> String {
-    match check(value.to_string().as_bytes(), graph) {
+    match answer(value, graph) {
         Err(Failure::Rejected(rejection)) => rejection.to_string(),
         other => panic!("not rejected: {other:?}"),
     }
@@ -60,4 +65,10 @@ pub(crate) fn refused(name: &str, changes: &[(&str, Value)], wanted: &str) {
     let reason = rejection(&changed(name, changes), None);
     let wanted = wanted.replace("E/", "pieces[0].evidence");
     assert!(reason.starts_with(&wanted), "{name} {changes:?}: {reason}");
+}
+
+#[track_caller]
+pub(crate) fn rejected(words: &str, value: &Value) {
+    let reason = rejection(value, None);
+    assert!(reason.contains(words), "{reason}");
 }
