@@ -168,7 +168,7 @@ fn said<'py>(py: Python<'py>, verified: &Answer) -> PyResult<Bound<'py, PyDict>>
         }
         Answer::AtCameras(found) => {
             said.set_item("centres_sha256", &found.centres_sha256)?;
-            let components = usize::try_from(found.components.0).ok();
+            let components = Some(found.components.0);
             (found.rank.0, found.required, components, found.rank.1)
         }
         Answer::Intrinsics(found) => {

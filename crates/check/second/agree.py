@@ -733,34 +733,20 @@ INCREASING = ("edges", "bodies", "split", "freed", "plus", "minus", "absent", "d
 
 def repair(document, rng):
     """Makes what a checker computes agree with what is stated: order, counting, hubs, then the claim."""
-    if "motion" in document:
-        repair_intrinsics(document)
-        return
+    kind = check.IntrinsicsCheck if "motion" in document else check.Check
     try:
         put_in_order(document)
     except (LookupError, TypeError, AttributeError, ValueError):
         return  # what would be put in order is not there any more
     for _ in range(12):
         try:
-            document["claim"] = check.Check(copy_of(document)).evidence_claim
+            document["claim"] = kind(copy_of(document)).evidence_claim
             return
         except notation.Reject as error:
             if not repair_count(document, str(error)):
                 return
         except Exception:
             return
-
-
-def repair_intrinsics(document):
-    """The claim that the evidence gives."""
-    try:
-        done = check.IntrinsicsCheck.__new__(check.IntrinsicsCheck)
-        done.compare = lambda: None
-        done.__init__(copy_of(document))
-        done.claim = done.found_claim()
-        document["claim"] = done.claim
-    except Exception:
-        return
 
 
 def put_in_order(document):

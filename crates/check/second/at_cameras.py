@@ -4,7 +4,7 @@ import hashlib
 import itertools
 import struct
 
-from claim import Claims, bound_sum, stated
+from claim import Claims, bound_sum, stated, strength
 from draws import Stream
 from elimination import find_pivots
 from matrices import bearing_rows, edge_motion, edge_translation, jacobian_rank, plane_rows
@@ -80,7 +80,7 @@ class HereCheck(Claims):
 
     verdicts = ("determined", "not-determined")
 
-    def __init__(self, document, graph_data=None, core_limit=200):
+    def __init__(self, document, graph_data=None, core_limit=200, *_):
         self.core_limit = core_limit
         names = "graph model cameras centres claim bodies rigid pieces"
         graph, self.model, cameras, centres, self.claim, bodies, rigid, pieces = members_about(
@@ -91,14 +91,12 @@ class HereCheck(Claims):
         self.read_graph(graph, graph_data)
         self.check_claim_form([])
         self.read_centres(centres, cameras)
-        self.bodies, self.final, self.scaled, self.rigid_only = [], set(), set(), set()
-        self.parts, self.groups, self.vectors = [], [], None
+        self.suppose([])
         self.check_bodies(bodies)
         self.rank = self.components = 0
         self.errors, self.inner = [], []
         self.section(rigid, pieces, self.cover(), "section 14: ", self.errors)
         self.evidence_claim = self.found_claim()
-        self.compare_claim()
 
     # (H1) to (H3) ----------------------------------------------------------------------------------------------------
 
@@ -288,7 +286,6 @@ class HereCheck(Claims):
 
     def statements(self):
         """What was verified, for people."""
-        strength = lambda part: "proof" if part["error_log2"] is None else f"error at most 2^{part['error_log2']} over the draws"
         verdict, rank, components = (self.claim[name] for name in ("verdict", "rank", "components"))
         return [
             f"graph: {self.graph.n} nodes, {len(self.graph.edges)} edges, SHA-256 {self.graph.hash.hex()}",

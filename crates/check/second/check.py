@@ -15,6 +15,7 @@ import itertools
 import sys
 
 from at_cameras import HereCheck
+from claim import strength
 from contradictions import ContradictionsCheck
 from intrinsics import IntrinsicsCheck
 from graphs import read_given
@@ -43,10 +44,6 @@ class Check(OwnFrame):
 
     def statements(self):
         """What was verified, for people."""
-
-        def strength(part):
-            return "proof" if part["error_log2"] is None else f"error at most 2^{part['error_log2']} over the draws"
-
         verdict, rank, components = (self.claim[name] for name in ("verdict", "rank", "components"))
         graph, numbers = self.graph, self.claim.get("solutions")
         number = []
@@ -90,13 +87,9 @@ def check_kind(document, graph_data=None, core_limit=CORE_LIMIT, given_data=None
     if question == "contradictions":
         need(not expects, "it is about motions, and nothing of a graph is expected of it")
         return ContradictionsCheck(document, database)
-    if question == "at-cameras":
-        done = HereCheck(document, graph_data, core_limit)
-    elif question == "intrinsics":
-        done = IntrinsicsCheck(document, graph_data, core_limit)
-    else:
-        done = Check(document, graph_data, core_limit, given_data, work_limit, expects)
-        done.compare_claim()
+    kind = HereCheck if question == "at-cameras" else IntrinsicsCheck if question == "intrinsics" else Check
+    done = kind(document, graph_data, core_limit, given_data, work_limit, expects)
+    done.compare_claim()
     if expects:
         need_named(done, given_data, **named)
     return done

@@ -17,6 +17,11 @@ def stated(value, error=None):
     return {"value": value, "strength": "proof" if error is None else "error-bound", "error_log2": error}
 
 
+def strength(part):
+    """Of a part of the claim, for people."""
+    return "proof" if part["error_log2"] is None else f"error at most 2^{part['error_log2']} over the draws"
+
+
 class Claims(Pieces):
     """Section 8: what follows from all pieces, to be compared with what is claimed."""
 

@@ -31,16 +31,12 @@ class Document:
         need(self.model in ("projective", "calibrated", "affine"), "section 3: no such model")
         self.projective = self.model == "projective"
         self.read_graph(graph, graph_data)
-        self.parts = self.read_known_parts(stated["parts"]) if "parts" in stated else []
+        self.suppose(self.read_known_parts(stated["parts"]) if "parts" in stated else [])
         self.expects = expects = expects or graph_data is not None or given_data is not None
         nothing = [], None, None, None
         given_parts, given_hash, given_own, self.given_frames = nothing if given_data is None else read_given(given_data, self.graph)
         need(not expects or self.parts == given_parts, "section 3: the known parts that are given are others")
         self.check_claim_form(optional)
-        # Section 5: what is known is there from the start.
-        self.bodies = [frozenset(part) for part in self.parts]
-        self.final, self.scaled, self.rigid_only = set(range(len(self.bodies))), set(), set()
-        self.groups, self.vectors = [], None
         need("displacements" in stated or "vectors" not in stated, "section 3: vectors without displacements")
         if "displacements" in stated:
             self.check_displacements(stated["displacements"])
@@ -76,6 +72,12 @@ class Document:
             need(self.graph.hash.hex() == sha256, "section 3: the hash of the given graph is another")
         need(self.graph.n == nodes, "section 3: the number of nodes is another")
         need(len(self.graph.edges) == edges, "section 3: the number of edges is another")
+
+    def suppose(self, parts):
+        """Section 5: what is known is there from the start."""
+        self.parts, self.groups, self.vectors = parts, [], None
+        self.bodies = [frozenset(part) for part in parts]
+        self.final, self.scaled, self.rigid_only = set(range(len(parts))), set(), set()
 
     def read_known_parts(self, value):
         """Section 3: the known parts, in their canonical form."""

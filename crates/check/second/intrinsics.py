@@ -16,7 +16,7 @@ OFF = ((0, 1), (0, 2), (1, 2))
 class IntrinsicsCheck(Pieces):
     """Section 15: the check of one certificate."""
 
-    def __init__(self, document, graph_data=None, core_limit=200):
+    def __init__(self, document, graph_data=None, core_limit=200, *_):
         self.core_limit = core_limit
         names = "graph classes claim bodies prime seed draw rows cols motion"
         shared = type(document) is dict and "shared" in document
@@ -27,8 +27,7 @@ class IntrinsicsCheck(Pieces):
         self.read_classes(classes, lists)
         # Section 5, in the projective model without known parts.
         self.model, self.projective = "projective", True
-        self.bodies, self.final, self.scaled, self.rigid_only = [], set(), set(), set()
-        self.parts, self.groups, self.vectors = [], [], None
+        self.suppose([])
         self.check_bodies(bodies)
         self.find_metric(self.cover())
         self.lay_out()
@@ -38,7 +37,7 @@ class IntrinsicsCheck(Pieces):
         self.moved(matrix, motion, at[0])
         self.at_most = self.upper()
         need(self.at_least <= self.at_most, "section 15: (I5) at_least is above at_most")
-        self.compare()
+        self.evidence_claim = self.found_claim()
 
     # (I1) ------------------------------------------------------------------------------------------------------------
 
@@ -267,18 +266,17 @@ class IntrinsicsCheck(Pieces):
         numbers = {"at_least": self.at_least, "at_most": self.at_most, "required": required}
         return {"verdict": verdict, **numbers, "components": components, "not_determined": free}
 
-    def compare(self):
-        found = self.found_claim()
+    def compare_claim(self):
+        found = self.evidence_claim
         members(self.claim, " ".join(found), "section 15: claim")
         for name in ("at_least", "at_most", "required"):
             an_int(self.claim[name], f"section 15: claim: {name}")
         for name, value in found.items():
             need(alike(value, self.claim[name]), f"section 15: (I6) {name}: found {str(value)[:60]}")
-        self.found = found
 
     def statements(self):
         """What was verified, for people."""
-        found, n = self.found, self.graph.n
+        found, n = self.evidence_claim, self.graph.n
         counts = ", ".join(f"{self.classes.count(word)} {word}" for word in UNKNOWN if word in self.classes)
         told = found["components"] is not None
         return [

@@ -53,7 +53,7 @@ class IntrinsicsTests(unittest.TestCase):
             ("twins", "not-metric", (7, 7, 8), [], [0, 1]),
             ("phones", "not-metric", (49, 49, 68), [[0, 1, 2], [2, 3], [3, 4], [4, 5]], [7, 8, 9]),
         ]:
-            found = self.verifies(named(name)).found
+            found = self.verifies(named(name)).evidence_claim
             self.assertEqual((found["verdict"], found["components"], found["not_determined"]), (verdict, components, free))
             self.assertEqual((found["at_least"], found["at_most"], found["required"]), numbers)
         self.assertIn("intrinsics determined: 1 of 2", self.verifies(named("pair")).statements())

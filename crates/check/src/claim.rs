@@ -86,6 +86,16 @@ pub struct Verified {
     pub notes: Vec<String>,
 }
 
+/// Compares a value and its strength, as a claim has them, with what was found, which rests on errors.
+macro_rules! compare {
+    ($claim:expr, $found:expr, $errors:expr) => {{
+        let claim = $claim;
+        let strength = (&claim.strength[..], claim.error_log2);
+        $crate::claim::agree((&claim.value, $found), strength, $errors)
+    }};
+}
+pub(crate) use compare;
+
 /// Compares the claim with what follows from the pieces and from what was shown of the number of
 /// solutions: its verdict, its rank, its components and this number.
 /// Ranks add up over pieces (theory, Corollaries 4.6, 4.12 and 13.12, Theorem 13.17), and of their
@@ -148,11 +158,7 @@ fn check_verdict(
         }
         decided => decided,
     };
-    compare(
-        (&claim.value, found),
-        (&claim.strength, claim.error_log2),
-        Ok(errors),
-    )
+    compare!(claim, found, Ok(errors))
 }
 
 /// The rank, which rests on the draws of the pieces whose bounds leave a gap (theory, Theorem 7.2).
@@ -167,11 +173,8 @@ fn check_rank(claim: &RankClaim, pieces: &[Piece]) -> Checked<(i64, Strength)> {
                 piece.lower, piece.upper
             ))),
         });
-    compare(
-        (&claim.value, pieces.iter().map(|piece| piece.lower).sum()),
-        (&claim.strength, claim.error_log2),
-        gaps.collect(),
-    )
+    let found: i64 = pieces.iter().map(|piece| piece.lower).sum();
+    compare!(claim, found, gaps.collect())
 }
 
 /// The number of components, which rests on what separates the classes (theory, Proposition 6.5 and
@@ -185,11 +188,8 @@ fn check_components(
     let errors: Option<Vec<_>> = errors.collect();
     let errors = errors.map(|errors| errors.concat());
     let all: usize = pieces.iter().map(|piece| piece.components).sum();
-    compare(
-        (&claim.value, all - joined),
-        (&claim.strength, claim.error_log2),
-        errors.ok_or_else(|| Failure::rejected("classes of a piece are not separated")),
-    )
+    let errors = errors.ok_or_else(|| Failure::rejected("classes of a piece are not separated"));
+    compare!(claim, all - joined, errors)
 }
 
 /// The number of solutions (theory, section 10), which is claimed if and only if there is evidence.
@@ -208,7 +208,7 @@ fn check_solutions(claim: Option<&SolutionsClaim>, found: Option<Count>) -> Chec
         at_most: claim.at_most,
     };
     let strength = (claim.strength.as_str(), claim.error_log2);
-    let (found, _) = compare((&claimed, found), strength, Ok(Vec::new()))?;
+    let (found, _) = agree((&claimed, found), strength, Ok(Vec::new()))?;
     Ok(Some(found))
 }
 
@@ -254,7 +254,7 @@ fn decide(
 
 /// Compares a claimed with the found value, and the claimed strength with that of a statement that
 /// rests on these errors.
-pub(crate) fn compare<C: Display, F: Display>(
+pub(crate) fn agree<C: Display, F: Display>(
     (value, found): (&C, F),
     (strength, error_log2): (&str, Option<i64>),
     errors: Checked<Vec<i64>>,

@@ -235,8 +235,8 @@ pub(crate) fn question_of(text: &[u8]) -> Checked<Option<Question>> {
                         *self.0 = Some(object.next_value::<Strict<_>>()?.0);
                         return Ok(());
                     }
-                    "version" => drop(object.next_value::<Strict<Version>>()?),
-                    _ => drop(object.next_value::<IgnoredAny>()?),
+                    "version" => _ = object.next_value::<Strict<Version>>()?,
+                    _ => _ = object.next_value::<IgnoredAny>()?,
                 }
             }
             Ok(())

@@ -28,7 +28,7 @@
 //! | unknown base lines | 13 | 13.26, 13.27 | `base_lines`, with `frames` and `matrix` |
 //! | a frame of its own | 16 | 13.29 to 13.31 | `own_frame` |
 //! | the number of solutions | 12 | 10.2 to 10.10, 19.3, 19.6 | `solutions`, a file for each kind |
-//! | what is determined at given cameras | 14 | 16.1 to 16.4 | `here`, all of it |
+//! | what is determined at given cameras | 14 | 16.1 to 16.4 | `at_cameras`, all of it |
 //! | what is determined of intrinsics | 15 | 17.3, 17.6 to 17.9 | `intrinsics`, all of it |
 //! | contradictions between pairs, and whose numbers they are | contradictions.md | | `contradictions`, all of it |
 //! | the claim is what follows | 8 | 1.3, 4.2, 4.6, 4.8, 4.12, 13.2, 13.17, 13.20 | `claim` |

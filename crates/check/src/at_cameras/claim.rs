@@ -70,24 +70,13 @@ pub(super) fn claim(
         "rank.required is {required}, not {}",
         claims.rank.required
     );
-    let claim = &claims.verdict;
-    let compared = compare(
-        (&claim.value, verdict),
-        (&claim.strength, claim.error_log2),
-        Ok(found.errors.clone()),
-    );
-    compared.within(|| "verdict".into())?;
-    let claim = &claims.rank;
-    let rank = compare(
-        (&claim.value, found.rank),
-        (&claim.strength, claim.error_log2),
-        Ok(found.errors.clone()),
-    );
-    let claim = &claims.components;
-    let components = compare(
-        (&claim.value, found.components),
-        (&claim.strength, claim.error_log2),
-        Ok(found.inner.clone()),
+    let errors = || Ok(found.errors.clone());
+    compare!(&claims.verdict, verdict, errors()).within(|| "verdict".into())?;
+    let rank = compare!(&claims.rank, found.rank, errors());
+    let components = compare!(
+        &claims.components,
+        found.components,
+        Ok(found.inner.clone())
     );
     Ok(VerifiedHere {
         size: [graph.nodes(), graph.pairs.len()],

@@ -2,7 +2,7 @@ use super::*;
 
 fn compared(error_log2: i64, errors: Vec<i64>) -> Result<Strength, String> {
     let claimed = ("error-bound", Some(error_log2));
-    let outcome = compare((&1, 1), claimed, Ok(errors));
+    let outcome = agree((&1, 1), claimed, Ok(errors));
     outcome
         .map(|(_, strength)| strength)
         .map_err(|error| error.to_string())
