@@ -18,7 +18,7 @@ import zlib
 from atlas import assets, browser, documentation, records, tutorials
 from atlas.graph_page import graph_page
 from atlas.other_pages import check_page, counted, gallery_page, lost_page, photographs_page, search_page, start_page, your_page
-from atlas.program import ROOT, Program
+from atlas.program import ROOT, Program, write
 
 HERE = pathlib.Path(__file__).parent
 # The most cameras of a row.
@@ -42,13 +42,6 @@ def publish(target, address):
         packed = path.with_name(path.name + ".gz")
         if "data" not in path.relative_to(target).parts and path.suffix in (".html", ".js", ".css", ".svg", ".json", ".xml") and (not packed.exists() or packed.stat().st_mtime < path.stat().st_mtime):
             packed.write_bytes(gzip.compress(path.read_bytes(), 9, mtime=0))
-
-
-def write(path, text):
-    """Writes what has changed, and leaves the rest as it was."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    if not path.exists() or path.read_text() != text:
-        path.write_text(text)
 
 
 def step(what, begin):

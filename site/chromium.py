@@ -82,13 +82,13 @@ class Chromium:
     def open(self, path, view=""):
         """Opens a page of the disk, and says how many seconds it took to load."""
         # By way of an empty page, as an address that differs in its fragment alone would load nothing.
-        self._go("about:blank")
+        self.load("about:blank")
         self.requests, self.complaints = [], []
         begin = time.monotonic()
-        self._go(f"file://{path}{view}")
+        self.load(f"file://{path}{view}")
         return time.monotonic() - begin
 
-    def _go(self, address):
+    def load(self, address):
         self.loaded = False
         self.call("Page.navigate", url=address)
         while not self.loaded:

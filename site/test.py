@@ -7,9 +7,11 @@ pages drawn at random are those of `verify --json`; pages fit 390 and 1600 pixel
 
 import argparse
 import contextlib
+import functools
 import gzip
 import hashlib
 import html
+import http.server
 import json
 import pathlib
 import random
@@ -19,6 +21,7 @@ import sqlite3
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import urllib.parse
 
@@ -75,18 +78,21 @@ def quiet(browser, where):
     right(not browser.complaints, f"{where}: {browser.complaints}")
 
 
+def two_checkers(browser, where):
+    """Both accept the certificate of the page, and reject a tampered copy."""
+    for button, code, word in (("check-now", "0", "VERIFIED"), ("tamper", "1", "REJECTED")):
+        browser.run(f"document.getElementById('{button}').click()")
+        browser.wait("document.querySelectorAll('.answer').length === 2 || document.querySelector('.answer[data-code=\"2\"]')")
+        answers = browser.run("[...document.querySelectorAll('.answer')].map((a) => [a.dataset.code, a.textContent])")
+        right(len(answers) == 2 and all(said == code and word in text for said, text in answers), f"{where}, {button}: {answers}")
+
+
 def checks(browser, site, slugs):
     for slug in slugs:
         browser.open(site / f"graphs/{slug}.html")
-        for button, code, word in (("check-now", "0", "VERIFIED"), ("tamper", "1", "REJECTED"), ("restore", None, None), ("check-now", "0", "VERIFIED")):
-            browser.run(f"document.getElementById('{button}').click()")
-            if code is None:
-                continue
-            browser.wait("document.querySelectorAll('.answer').length === 2 || document.querySelector('.answer[data-code=\"2\"]')")
-            answers = browser.run("[...document.querySelectorAll('.answer')].map((a) => [a.dataset.code, a.textContent])")
-            right(len(answers) == 2, f"{slug}: {answers}")
-            for said, text in answers:
-                right(said == code and word in text, f"{slug}, {button}: {answers}")
+        two_checkers(browser, slug)
+        browser.run("document.getElementById('restore').click()")
+        two_checkers(browser, slug)
         # What is no certificate is neither verified nor rejected.
         browser.run("document.getElementById('certificate-text').value = 'JFIF'; document.getElementById('check-now').click()")
         browser.wait("!!document.querySelector('.answer.undecided')")
@@ -161,7 +167,7 @@ def search(browser, site):
     right(least <= count() <= least + 10, f"{count()} rows, and {least} in the lists")
     slowest = 0
     # With ten cameras there is Petersen's graph as well, which is not minimal.
-    questions = [("nodes=10&pairs=14&solutions=3", 8), ("nodes=10&pairs=14&solutions=2", 153), ("nodes=9&pairs=12&solutions=2", 10), ("nodes=8&pairs=11", 36), *((f"nodes={n}", minimal[n]) for n in (8, 9)), ("nodes=10", minimal[10] + 1), *((f"nodes={n}&pairs={-(-(11 * n - 15) // 7)}", k) for n, k in lists.items())]
+    questions = [("nodes=10&pairs=14&solutions=3", 8), ("nodes=10&pairs=14&solutions=2", 153), ("nodes=9&pairs=12&solutions=2", 10), ("nodes=8&pairs=11", 36), ("nodes=5&planar=0", 0), ("nodes=5&pairs=6&planar=1&chromatic=2&diameter=2", 1), *((f"nodes={n}", minimal[n]) for n in (8, 9)), ("nodes=10", minimal[10] + 1), *((f"nodes={n}&pairs={-(-(11 * n - 15) // 7)}", k) for n, k in lists.items())]
     for view, expected in questions:
         browser.run(f"location.hash = '{view}'")
         browser.wait(f"document.getElementById('count').dataset.count === '{expected}'", 10)
@@ -357,13 +363,35 @@ def decided(browser, site, verify, seed, count=400):
         right(wanted.items() <= shown.items(), f"{given!r}: {shown}")
         badges = browser.run("[...document.querySelectorAll('#found .badge')].map((badge) => badge.textContent)")
         right(badges == [report["verdict"].replace("-", " ")], f"{given!r}: {badges}, and verify says {report['verdict']}")
-        for button, code, word in (("check-now", "0", "VERIFIED"), ("tamper", "1", "REJECTED")):
-            browser.run(f"document.getElementById('{button}').click()")
-            browser.wait("document.querySelectorAll('.answer').length === 2 || document.querySelector('.answer[data-code=\"2\"]')")
-            answers = browser.run("[...document.querySelectorAll('.answer')].map((a) => [a.dataset.code, a.textContent])")
-            right(len(answers) == 2 and all(said == code and word in text for said, text in answers), f"{given!r}, {button}: {answers}")
+        two_checkers(browser, repr(given))
         quiet(browser, "graph.html")
     print(f"decided in the page: {len(lines)} graphs as by the program, {len(certificates)} certificates accepted ({taken:.1f} s); 4 pages, each checked and a tampered copy rejected (seed {seed})")
+
+
+def invariants(python, seed, count=300):
+    """Planar is what networkx calls planar, as far is as far there, and one colour less has no colouring, by inclusion and exclusion."""
+    lines = random_graphs(random.Random(seed), count, (2, 10))
+    words = "import networkx as n, sys\nfor line in sys.stdin:\n g = n.from_graph6_bytes(line.strip().encode())\n print(n.check_planarity(g)[0], n.diameter(g) if n.is_connected(g) else None, n.node_connectivity(g))"
+    said = subprocess.run([python, "-c", words], input="\n".join(lines) + "\n", capture_output=True, text=True, check=True).stdout.splitlines()
+    for line, expected in zip(lines, said, strict=True):
+        nodes, pairs = graphs.of_graph6(line)
+        found, free = graphs.invariants(nodes, pairs), [1]
+        right(f"{found['planar']} {found['diameter']} {graphs.connectivity(nodes, pairs)}" == expected, f"{line}: {found}, and networkx says {expected}")
+        # How many sets of nodes without a pair lie in each set: with its last node and without it.
+        for v in range(nodes):
+            near = sum(1 << i for i, j in pairs if j == v)
+            free += [less + free[part & ~near] for part, less in enumerate(free)]
+        colourings = [sum((-1) ** (nodes - part.bit_count()) * sets**colours for part, sets in enumerate(free)) for colours in range(found["chromatic"] + 1)]
+        right([number > 0 for number in colourings] == [False] * found["chromatic"] + [True], f"{line}: {found['chromatic']} colours, and there are {colourings} colourings")
+    print(f"invariants: {count} graphs (seed {seed})")
+
+
+def documents(browser, site):
+    """The search of the documentation begins with where a word is explained."""
+    for word, page in {"graph6": "input.html#", "unique": "glossary.html#", "certificate": "glossary.html#", "database": "databases.html"}.items():
+        browser.open(site / "docs/search.html", f"?q={word}")
+        first = browser.wait("document.querySelector('#search-results li a')?.getAttribute('href')", 20)
+        right(first.startswith(page), f"{word} leads to {first} first")
 
 
 def libraries(browser, site):
@@ -400,6 +428,37 @@ def package(site):
         [linked] = re.findall(r'<script type="application/ld\+json">(.*?)</script>', (site / page).read_text(), re.S)
         right(json.loads(linked)["@type"] == "Dataset", f"{page}: linked data")
     print(f"data package: {len(told['resources'])} files")
+
+
+class Compressed(http.server.SimpleHTTPRequestHandler):
+    """A server that sends the compressed copies, and counts bytes by path."""
+
+    sent = {}
+
+    def do_GET(self):
+        path = pathlib.Path(self.translate_path(self.path))
+        copy, encoding = next((found for ending, encoding in ((".br", "br"), (".gz", "gzip")) if (found := (path.with_name(path.name + ending), encoding))[0].exists()), (path, "identity"))
+        self.sent[path.name] = copy.stat().st_size
+        self.send_response(200)
+        self.send_header("Content-Encoding", encoding)
+        self.send_header("Content-Type", self.guess_type(path))
+        self.end_headers()
+        self.wfile.write(copy.read_bytes())
+
+    log_message = lambda *_: None
+
+
+def served(browser, site):
+    """From a server that compresses the verdict on a graph takes 2 s at 10 Mbit/s."""
+    with http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Compressed, directory=site)) as server:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        browser.load(f"http://127.0.0.1:{server.server_port}/graph.html#DFw")
+        right(browser.wait("document.querySelector('#verdict .badge')?.textContent") == "solvable", "the verdict from a server")
+        server.shutdown()
+    # The rows of the atlas come after the verdict.
+    before = {name: size for name, size in Compressed.sent.items() if name != "rows.js"}
+    right("verify.wasm" in before and sum(before.values()) < 2.5e6, f"sent before the verdict: {before}")
+    print(f"verdict from a server: {sum(before.values()) / 1e6:.2f} MB")
 
 
 def heads(site):
@@ -459,13 +518,14 @@ def main():
     parser.add_argument("--most-milliseconds", type=float, default=100, help="for a search; the first page may take ten times as long")
     asked = parser.parse_args()
     site, verify = asked.site.resolve(), asked.verify.resolve()
-    size = sum(p.stat().st_size for p in site.rglob("*") if p.is_file() and "pyodide" not in p.parts and p.suffix != ".gz")
+    size = sum(p.stat().st_size for p in site.rglob("*") if p.is_file() and "pyodide" not in p.parts and p.suffix not in (".gz", ".br"))
     right(size < 60e6, f"the site has {size} bytes without pyodide")
     right(len(list((site / "graphs").glob("vg.*.html"))) >= 829, "829 pages")
     print(f"{len(pages(site))} pages, {size / 1e6:.0f} MB without pyodide")
     links(site)
     numbers(site, verify, asked.seed)
     minimal(verify, asked.seed)
+    invariants(documentation.interpreter(asked.cache), asked.seed)
     notebooks(site)
     package(site)
     heads(site)
@@ -477,11 +537,13 @@ def main():
         own_graphs(browser, site, verify)
         photographs(browser, site, verify, asked.cache)
         decided(browser, site, verify, asked.seed)
+        served(browser, site)
         found_by_name(browser, site)
         facets(browser, site)
         slowest = search(browser, site)
         checks(browser, site, ["vg.5.6.55", "vg.8.11.219482", "psi"])
         terms(browser, site)
+        documents(browser, site)
         libraries(browser, site)
         looks(browser, site, asked.cache)
     finally:

@@ -10,7 +10,7 @@ import sys
 import venv
 
 from . import assets, statements
-from .program import ROOT
+from .program import ROOT, write
 
 HERE = pathlib.Path(__file__).resolve().parents[1]
 PACKAGE = ROOT / "python/lib"
@@ -40,12 +40,6 @@ def interpreter(cache):
         venv.create(folder, with_pip=True, clear=True)
     subprocess.run([python, "-m", "pip", "install", "--quiet", "-r", HERE / "requirements.txt"], check=True)
     return python
-
-
-def put(path, text):
-    """Writes what has changed: Sphinx goes by times."""
-    if not path.exists() or path.read_text() != text:
-        path.write_text(text)
 
 
 def exported():
@@ -140,6 +134,10 @@ class Sources:
         for k in range(0, len(parts), 2):
             part = re.sub(r"\[([^][]+)\]\[([^][]+)\]", lambda m: f"[{m[1]}]({definitions[m[2]]})" if m[2] in definitions else m[0], parts[k])
             part = re.sub(r"(?<![`!\]])\[([^][`(]+)\](?![([:])", lambda m: f"[{m[1]}]({definitions[m[1]]})" if m[1] in definitions else m[0], part)
+            if source.name in ("glossary.md", "input.md"):
+                # What these emphasise they explain, and what the glossary has a heading for: the search leads there.
+                part = re.sub(r"^### (.+)$", r"```{index} ! \1\n```\n\n### \1", part, flags=re.M) if source.name == "glossary.md" else part
+                part = re.sub(r"(?<![*\w])\*([^\W\d][\w ]*)\*(?!\*)", r"*{index}`!\1`*", part)
             parts[k] = re.sub(r"\[([^][]*(?:\[[^][]*\][^][]*)*)\]\(([^()\s]+)\)", lambda m: self.link(source, m[1], m[2]), part)
         text = "".join(parts)
         if source in self.notebooks:
@@ -158,10 +156,10 @@ class Sources:
                 text += "\n" + "".join(f"```{{toctree}}\n:hidden:\n:caption: {caption}\n\n" + "\n".join(pages) + "\n```\n\n" for caption, pages in ORDER.items())
             if name == "theory.md":
                 text += "\n```{toctree}\n:hidden:\n\n" + "\n".join(map(statements.page, statements.CHAPTERS)) + "\n```\n"
-            put(folder / name, text)
-        put(folder / "statements.md", statements.markdown())
-        put(folder / "api.md", api())
-        put(folder / "rust.md", rust_page())
+            write(folder / name, text)
+        write(folder / "statements.md", statements.markdown())
+        write(folder / "api.md", api())
+        write(folder / "rust.md", rust_page())
         shutil.copytree(ROOT / "docs/pictures", folder / "pictures", dirs_exist_ok=True)
 
 
@@ -174,8 +172,8 @@ def build(target, cache, notebooks):
     rust(pathlib.Path(target).parent / "rust")
     Sources(notebooks).write(folder)
     for name in ("conf.py", "formulas.js", "docs.css", "docs.js"):
-        put(folder / name, (HERE / "docs" / name).read_text())
-    put(folder / "place.json", json.dumps({"katex": str(katex / "dist/katex.js"), "package": str(PACKAGE)}))
+        write(folder / name, (HERE / "docs" / name).read_text())
+    write(folder / "place.json", json.dumps({"katex": str(katex / "dist/katex.js"), "package": str(PACKAGE)}))
     words = [python, "-m", "sphinx", "-b", "html", "-q", "-j", "2", "-d", cache / "doctrees", folder, target]
     done = subprocess.run(words, capture_output=True, text=True)
     print(done.stderr, file=sys.stderr, end="")

@@ -3,7 +3,7 @@
 import json
 from html import escape
 
-from .graphs import connectivity, kernel, kernel_form
+from .graphs import connectivity, invariants, kernel, kernel_form
 from .pictures import inline, places
 from .record import Record, solutions_word
 from .story import Story, listed
@@ -60,14 +60,16 @@ def facts_of(record):
     ]
     if name:
         girth = name["girth"] or "no cycle"
-        fewest, widest = connectivity(nodes, record.pairs)
+        counted = invariants(nodes, record.pairs)
         found += [
             ("degrees", ", ".join(map(str, name["degrees"]))),
             ("girth", girth, "label:/girth", name["girth"]),
             ("automorphisms", name["automorphisms"], "label:/automorphisms", name["automorphisms"]),
             ("triangles", name["triangles"], "label:/triangles", name["triangles"]),
-            ("connectivity", fewest),
-            ("diameter", "not connected" if widest is None else widest),
+            ("connectivity", connectivity(nodes, record.pairs)),
+            ("diameter", "not connected" if counted["diameter"] is None else counted["diameter"]),
+            ("chromatic number", counted["chromatic"]),
+            ("planar", "yes" if counted["planar"] else "no"),
             ("graph6, greatest", f"<code>{escape(name['graph6'])}</code>", "label:/graph6", name["graph6"]),
         ]
     found.append(("graph6, as numbered here", f"<code>{escape(record.graph6)}</code>"))
@@ -137,7 +139,7 @@ def data_section(record):
     label, report = record.label or record.slug, record.report
     joined = {tuple(sorted(pair)) for pair in record.pairs}
     rows = "\n".join(" ".join("01"[(min(i, j), max(i, j)) in joined] for j in range(nodes)) for i in range(nodes)) if nodes <= 60 else ""
-    value = {"label": record.label, "graph6": record.graph6, "cameras": nodes, "pairs": record.pairs, "verdict": report["verdict"], "strength": report["strength"], "rank": report["rank"], "solutions": report.get("solutions"), "models": {line["model"]: line["verdict"] for line in record.models["models"]}, "invariants": record.name and {key: record.name[key] for key in ("degrees", "girth", "automorphisms", "triangles")}}
+    value = {"label": record.label, "graph6": record.graph6, "cameras": nodes, "pairs": record.pairs, "verdict": report["verdict"], "strength": report["strength"], "rank": report["rank"], "solutions": report.get("solutions"), "models": {line["model"]: line["verdict"] for line in record.models["models"]}, "invariants": record.name and {key: record.name[key] for key in ("degrees", "girth", "automorphisms", "triangles")} | invariants(nodes, record.pairs)}
     entry = f"@misc{{viewcert:{label},\n  title = {{Viewing graph {label}: {nodes} cameras, {pairs} pairs, {VERDICTS[report['verdict']][0]}}},\n  author = {{{{The viewcert developers}}}},\n  note = {{The atlas of viewing graphs}}\n}}\n"
     kept = [("pairs", "Pairs"), *([("adjacency", "Adjacency matrix")] if rows else []), ("graph", "JSON"), ("bibtex", "BibTeX"), ("picture", "Picture")]
     buttons = " ".join(f'<button type="button" data-save="{name}">{words}</button>' for name, words in kept)

@@ -1,4 +1,4 @@
-"""Small graphs in plain Python: graph6, the greatest relabelling of a multigraph, kernels, connectivity."""
+"""Small graphs in plain Python: graph6, the greatest relabelling of a multigraph, kernels, invariants."""
 
 import itertools
 
@@ -37,38 +37,77 @@ def greatest(nodes, weights):
     return tuple(columns)
 
 
+def invariants(nodes, pairs):
+    """What a graph is filtered by, and `verify label` does not say: the greatest distance (None if it hangs not together), the
+    fewest colours, and whether it can be drawn without crossings."""
+    near = neighbours(nodes, pairs)
+    depths = [depth(near, v, set()) for v in range(nodes)]
+    return {"diameter": None if None in depths else max(depths), "chromatic": chromatic(near), "planar": planar(nodes, pairs)}
+
+
+def neighbours(nodes, pairs):
+    return [{b if a == v else a for a, b in pairs if v in (a, b)} for v in range(nodes)]
+
+
+def depth(near, start, without):
+    """The greatest distance from a node without some others, None where not all are reached."""
+    reached, front, steps = {start}, {start}, 0
+    while front := set().union(*(near[v] for v in front)) - reached - without:
+        reached, steps = reached | front, steps + 1
+    return steps if len(reached) == len(near) - len(without) else None
+
+
 def connectivity(nodes, pairs):
-    """The fewest cameras without which the others hang no longer together, or one is left; and the greatest distance, None if there is none."""
-    near = [{b if a == v else a for a, b in pairs if v in (a, b)} for v in range(nodes)]
+    """The fewest cameras without which the others hang no longer together, or one is left."""
+    near = neighbours(nodes, pairs)
+    cut = lambda some: depth(near, next(v for v in range(nodes) if v not in some), set(some)) is None
+    return next((k for k in range(nodes - 1) if any(map(cut, itertools.combinations(range(nodes), k)))), nodes - 1)
 
-    def depth(start, without):
-        reached, front, steps = {start}, {start}, 0
-        while front := set().union(*(near[v] for v in front)) - reached - without:
-            reached, steps = reached | front, steps + 1
-        return steps if len(reached) == nodes - len(without) else None
 
-    depths = [depth(v, set()) for v in range(nodes)]
-    cut = lambda some: depth(next(v for v in range(nodes) if v not in some), set(some)) is None
-    fewest = next((k for k in range(nodes - 1) if any(map(cut, itertools.combinations(range(nodes), k)))), nodes - 1)
-    return fewest, None if None in depths else max(depths)
+def chromatic(near):
+    """The fewest colours with which no two neighbours have the same."""
+
+    def coloured(most, colours=()):
+        node = len(colours)
+        if node == len(near):
+            return True
+        taken = {colours[u] for u in near[node] if u < node}
+        return any(coloured(most, (*colours, k)) for k in range(min(most, len(set(colours)) + 1)) if k not in taken)
+
+    return next(most for most in itertools.count(1) if coloured(most))
+
+
+def planar(nodes, pairs):
+    """By Hanani and Tutte: with its nodes on a circle, can edges be pulled over nodes such that any two edges without a common
+    node cross an even number of times? An equation modulo 2 each; bit 0 says whether the chords cross."""
+    edges = [(min(pair), max(pair)) for pair in pairs]
+    pulled = {at: 1 << k for k, at in enumerate(itertools.product(edges, range(nodes)), 1)}
+    solved = {}
+    for (a, b), (c, d) in itertools.combinations(edges, 2):
+        if len({a, b, c, d}) < 4:
+            continue
+        row = ((a < c < b) != (a < d < b)) ^ pulled[(a, b), c] ^ pulled[(a, b), d] ^ pulled[(c, d), a] ^ pulled[(c, d), b]
+        while row > 1 and row.bit_length() in solved:
+            row ^= solved[row.bit_length()]
+        if row == 1:
+            return False
+        solved[row.bit_length()] = row
+    return True
 
 
 def kernel(nodes, pairs):
     """What is left when nodes of degree 2 are undone: the nodes of degree 3 at least, and for each edge between them
     the path of nodes that it was. None where a cycle alone is left, or an edge would be a loop."""
-    neighbours = {v: set() for v in range(nodes)}
-    for i, j in pairs:
-        neighbours[i].add(j)
-        neighbours[j].add(i)
-    kept = [v for v in range(nodes) if len(neighbours[v]) >= 3]
-    if not kept or any(len(near) < 2 for near in neighbours.values()):
+    near = neighbours(nodes, pairs)
+    kept = [v for v in range(nodes) if len(near[v]) >= 3]
+    if not kept or min(map(len, near)) < 2:
         return None
     paths = []
     for start in kept:
-        for step in neighbours[start]:
+        for step in near[start]:
             path = [start, step]
-            while len(neighbours[path[-1]]) == 2:
-                (following,) = neighbours[path[-1]] - {path[-2]}
+            while len(near[path[-1]]) == 2:
+                (following,) = near[path[-1]] - {path[-2]}
                 path.append(following)
             if path[0] == path[-1]:
                 return None

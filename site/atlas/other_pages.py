@@ -18,9 +18,9 @@ CONFIGURATIONS = [
 ]
 FACETS = [
     ("nodes", "cameras"), ("pairs", "pairs"), ("solutions", "solutions"), ("girth", "girth"), ("automorphisms", "automorphisms"),
-    ("triangles", "triangles"), ("affine", "affine cameras solvable"), ("calibrated", "known intrinsics solvable"), ("kernel", "kernel"),
+    ("triangles", "triangles"), ("diameter", "diameter"), ("chromatic", "chromatic number"), ("planar", "planar"), ("affine", "affine cameras solvable"), ("calibrated", "known intrinsics solvable"), ("kernel", "kernel"),
 ]
-NUMBERS = ("nodes", "pairs", "girth", "automorphisms", "triangles")
+NUMBERS = ("nodes", "pairs", "girth", "automorphisms", "triangles", "diameter", "chromatic")
 HEADS = [
     ("label", "label"), ("nodes", "cameras"), ("pairs", "pairs"), ("solutions", "solutions"), ("degrees", "degrees"), ("girth", "girth"),
     ("automorphisms", "automorphisms"), ("triangles", "triangles"), ("affine", "affine"), ("calibrated", "calibrated"),

@@ -14,6 +14,13 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 BATCH = 2000
 
 
+def write(path, text):
+    """Writes what has changed, and leaves the rest as it was: Sphinx goes by times."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    if not path.exists() or path.read_text() != text:
+        path.write_text(text)
+
+
 class Program:
     """`verify`, with a folder for what it has said before."""
 
@@ -39,14 +46,13 @@ class Program:
 
     def run(self, words, text="", codes=(0, 1)):
         """Standard output of a run with this standard input; `codes` are the exit codes that are answers."""
+        return self.kept(("run", words, text), lambda: self.answer(words, codes, input=text.encode())).decode()
 
-        def make():
-            done = subprocess.run([self.path, *words], input=text.encode(), capture_output=True)
-            if done.returncode not in codes:
-                raise SystemExit(f"{self.path.name} {' '.join(words)}: exit code {done.returncode}: {done.stderr.decode()}")
-            return done.stdout
-
-        return self.kept(("run", words, text), make).decode()
+    def answer(self, words, codes=(0, 1), **where):
+        done = subprocess.run([self.path, *words], capture_output=True, **where)
+        if done.returncode not in codes:
+            raise SystemExit(f"{self.path.name} {' '.join(words)}: exit code {done.returncode}: {done.stderr.decode()}")
+        return done.stdout
 
     def lines(self, words, lines):
         """A JSON object for each line of graph6."""
@@ -63,9 +69,7 @@ class Program:
             folder = pathlib.Path(folder)
             for name, text in files.items():
                 (folder / name).write_text(text)
-            done = subprocess.run([self.path, *words], cwd=folder, capture_output=True)
-            if done.returncode not in (0, 1):
-                raise SystemExit(f"{self.path.name} {' '.join(words)}: exit code {done.returncode}: {done.stderr.decode()}")
+            self.answer(words, cwd=folder)
             return next(((folder / name).read_bytes() for name in results if (folder / name).exists()), b"")
 
     def file(self, words, text):

@@ -92,7 +92,7 @@ def complete(program, laboratory, records):
         record.witness, record.oriented, record.second_scene = witness, scene["numbers"], scene["picture"] or ""
 
 
-COLUMNS = ["label", "nodes", "pairs", "graph6", "degrees", "girth", "automorphisms", "triangles", "solutions", "affine", "calibrated", "kernel", "page"]
+COLUMNS = ["label", "nodes", "pairs", "graph6", "degrees", "girth", "automorphisms", "triangles", "diameter", "chromatic", "planar", "solutions", "affine", "calibrated", "kernel", "page"]
 
 
 def row(name, graph6, solutions, models, page):
@@ -101,9 +101,9 @@ def row(name, graph6, solutions, models, page):
     solvable = {model: int(verdict[model] != "not-finite-solvable") for model in ("affine", "calibrated")}
     degrees = ",".join(map(str, name["degrees"]))
     nodes, pairs = name["graph"]["nodes"], name["graph"]["edges"]
-    kernel = kernel_form(*of_graph6(graph6)) or ""
+    kernel, found = kernel_form(*of_graph6(graph6)) or "", graphs.invariants(*of_graph6(graph6))
     return [name["label"], nodes, pairs, graph6, degrees, name["girth"] or 0, name["automorphisms"], name["triangles"],
-            solutions, solvable["affine"], solvable["calibrated"], kernel, page]
+            found["diameter"] or 0, found["chromatic"], int(found["planar"]), solutions, solvable["affine"], solvable["calibrated"], kernel, page]
 
 
 def listed(program, nodes):

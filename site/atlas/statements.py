@@ -10,21 +10,21 @@ CHAPTERS = [*sorted((ROOT / "docs/theory").glob("*.md")), ROOT / "lab/docs/theor
 
 
 def statements():
-    """Number to kind and text, by number."""
+    """Number to kind, text and page, by number."""
     found = {}
     for chapter in CHAPTERS:
         text = chapter.read_text()
         starts = list(START.finditer(text))
         ends = [m.start() for m in starts[1:]] + [len(text)]
         for start, end in zip(starts, ends):
-            found[start.group(2)] = (start.group(1), text[start.start() : end])
+            found[start.group(2)] = (start.group(1), text[start.start() : end], page(chapter))
     return dict(sorted(found.items(), key=lambda item: key(item[0])))
 
 
 def mentions(found):
     """For each statement those that it or its proof names. A number alone in parentheses is an equation."""
     uses = {}
-    for number, (_, body) in found.items():
+    for number, (_, body, _) in found.items():
         body = re.sub(r"\(\d+\.\d+\)", "", body)
         named = re.findall(r"(?<![\d.])\d+\.\d+(?![\d.]*\d)", body)
         uses[number] = sorted({n for n in named if n in found and n != number}, key=key)
@@ -41,31 +41,28 @@ def page(chapter):
     return "theory-lab" if chapter.stem == "theory" else f"theory-{chapter.stem}"
 
 
-def homes():
-    """The page of each statement, by number."""
-    return {m[2]: page(chapter) for chapter in CHAPTERS for m in START.finditer(chapter.read_text())}
-
-
 def key(number):
     return tuple(map(int, number.split(".")))
 
 
+def table(path, heading, columns):
+    """The cells of the rows of the table under a heading."""
+    text = (ROOT / path).read_text().split(f"## {heading}")[1].split("\n## ")[0]
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in text.splitlines() if line.startswith("|")]
+    return [cells for cells in rows[1:] if len(cells) == columns]
+
+
 def places():
     """For each statement the cells of docs/formulas.md: what it says, code, checkers, tests."""
-    text = (ROOT / "docs/formulas.md").read_text().split("## theory.md: statements")[1].split("\n## ")[0]
-    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in text.splitlines() if line.startswith("| ")]
-    return {cells[0].split()[-1]: cells[1:] for cells in rows[1:] if len(cells) == 5}
+    return {cells[0].split()[-1]: cells[1:] for cells in table("docs/formulas.md", "theory.md: statements", 5)}
 
 
 def proved():
     """The chapters of the Coq development, by the numbers that proofs/README.md names for them."""
-    text = (ROOT / "proofs/README.md").read_text().split("## The chapters")[1].split("\n## ")[0]
     found = {}
-    for line in text.splitlines():
-        cells = [cell.strip() for cell in line.strip("|").split("|")]
-        if len(cells) == 2:
-            for number in re.findall(r"(?<![\d.])\d+\.\d+", cells[1]):
-                found.setdefault(number, []).append((cells[0], cells[1]))
+    for name, numbers in table("proofs/README.md", "The chapters", 2):
+        for number in re.findall(r"(?<![\d.])\d+\.\d+", numbers):
+            found.setdefault(number, []).append(name)
     return found
 
 
@@ -74,8 +71,7 @@ def markdown():
     found = statements()
     uses, where, in_coq = mentions(found), places(), proved()
     used = {n: sorted((m for m in uses if n in uses[m]), key=key) for n in found}
-    home = homes()
-    link = lambda n: f"[{n}]({home[n]}.md#{anchor(n)})"
+    link = lambda n: f"[{n}]({found[n][2]}.md#{anchor(n)})"
     code = lambda cell: re.sub(r"\[(`[^`]+`)\]\[[^]]*\]", r"\1", cell)
     lines = [
         "# Statements", "",
@@ -83,9 +79,8 @@ def markdown():
         "",
         "| | says | names | named by | code | tests | Coq |", "|---|---|---|---|---|---|---|",
     ]
-    for number, (kind, _) in found.items():
+    for number, (kind, *_) in found.items():
         says, program, _, tests = where.get(number, ["", "", "", ""])
-        chapters = ", ".join(name for name, _ in in_coq.get(number, []))
-        cells = [link(number).replace("[", f"[{kind} ", 1), says, " ".join(map(link, uses[number])), " ".join(map(link, used[number])), code(program), code(tests), escape(chapters)]
+        cells = [link(number).replace("[", f"[{kind} ", 1), says, " ".join(map(link, uses[number])), " ".join(map(link, used[number])), code(program), code(tests), escape(", ".join(in_coq.get(number, [])))]
         lines.append("| " + " | ".join(cells) + " |")
     return "\n".join(lines) + "\n"

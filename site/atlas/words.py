@@ -22,7 +22,7 @@ def page(title, body, *, depth=0, scripts=(), data="", about="", current=""):
     loaded = "".join(f'<script src="{up}static/{name}"></script>\n' for name in scripts)
     policy = (
         "default-src 'none'; img-src 'self' data: file:; style-src 'self' 'unsafe-inline' file:; font-src 'self' file:; "
-        "script-src 'self' 'unsafe-inline' 'unsafe-eval' blob: file:; connect-src blob: data:; base-uri 'none'; form-action 'none'"
+        "script-src 'self' 'unsafe-inline' 'unsafe-eval' blob: file:; connect-src 'self' blob: data:; base-uri 'none'; form-action 'none'"
     )
     return f"""<!DOCTYPE html>
 <html lang="en">

@@ -2,18 +2,18 @@
 // only files, and are not written to; what a command writes goes to standard output (`--certificate -`).
 import { Directory, File, OpenFile, PreopenDirectory, SyncOPFSFile, WASI } from "@bjorn3/browser_wasi_shim";
 
-const BLOCK = 1 << 17, BLOCKS = 512;
+const BLOCK = 1 << 19, BLOCKS = 1024;
 let program = null;
 
-// A file of any size, of which the program reads what it needs: the last blocks are kept.
+// A file of any size, of which the program reads what it needs: the blocks that it asked for last are kept.
 function sliced(blob) {
   const kept = new Map(), reader = new FileReaderSync();
   const block = (k) => {
-    if (!kept.has(k)) {
-      if (kept.size === BLOCKS) kept.delete(kept.keys().next().value);
-      kept.set(k, new Uint8Array(reader.readAsArrayBuffer(blob.slice(k * BLOCK, (k + 1) * BLOCK))));
-    }
-    return kept.get(k);
+    const found = kept.get(k) ?? new Uint8Array(reader.readAsArrayBuffer(blob.slice(k * BLOCK, (k + 1) * BLOCK)));
+    kept.delete(k);
+    if (kept.size === BLOCKS) kept.delete(kept.keys().next().value);
+    kept.set(k, found);
+    return found;
   };
   const read = (into, { at }) => {
     const size = Math.max(0, Math.min(into.length, blob.size - at));

@@ -88,4 +88,6 @@ def setup(app):
     app.connect("autodoc-process-signature", signature)
     app.add_html_math_renderer("mathml", inline_renderers=(inline, None), block_renderers=(block, None))
     app.connect("html-page-context", described)
+    # All pages or none: of those that are not read again the index of the search forgets the entries.
+    app.connect("env-get-outdated", lambda app, env, *changed: sorted(env.all_docs) if any(changed) else [])
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -24,5 +24,3 @@ function ofConverted(lines) {
   }
   return { nodes, pairs, names: names.length ? names : null };
 }
-
-if (typeof module !== "undefined") module.exports = { ofConverted, toGraph6 };

@@ -1,9 +1,10 @@
 "use strict";
 // The table of the atlas: facets that count, sorting, and what was found as files. Names come from rows.js.
 let NAMES, ROWS, AT, found = [];
-const NUMBERS = new Set(["nodes", "pairs", "girth", "automorphisms", "triangles"]);
-const FACETS = ["nodes", "pairs", "solutions", "girth", "automorphisms", "triangles", "affine", "calibrated", "kernel"];
-const WORDS = { affine: { 0: "no", 1: "yes" }, calibrated: { 0: "no", 1: "yes" }, girth: { 0: "no cycle" }, solutions: { 1: "1: unique" } };
+const NUMBERS = new Set(["nodes", "pairs", "girth", "automorphisms", "triangles", "diameter", "chromatic"]);
+const FACETS = ["nodes", "pairs", "solutions", "girth", "automorphisms", "triangles", "diameter", "chromatic", "planar", "affine", "calibrated", "kernel"];
+const YES = { 0: "no", 1: "yes" };
+const WORDS = { affine: YES, calibrated: YES, planar: YES, girth: { 0: "no cycle" }, solutions: { 1: "1: unique" } };
 const SHOWN = 100;
 
 const state = { chosen: {}, degrees: "", sort: "", falling: false, shown: SHOWN };
