@@ -11,7 +11,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use viewcert::decide::{OwnFrame, Question};
-use viewcert::graph::{Coordinate, Displacements};
+use viewcert::graph::{Displacements, coordinate};
 use viewcert::intrinsics::{Certified, Class, Metric, Sensors};
 use viewcert::linalg::prime::PrimeField;
 use viewcert::watch::Watch;
@@ -195,12 +195,9 @@ fn with_vectors(
         let &[u, v] = &pair[..] else {
             return Err("vectors go with pairs of nodes".into());
         };
-        let mut coordinates = [Coordinate::default(); 3];
-        for (coordinate, text) in coordinates.iter_mut().zip(vector) {
-            let read = text.parse();
-            *coordinate = read.map_err(|error| format!("{text}: {error}"))?;
-        }
-        items.push((u, v, coordinates));
+        let read = |text: &String| coordinate(text).map_err(|error| format!("{text}: {error}"));
+        let [x, y, z] = vector;
+        items.push((u, v, [read(x)?, read(y)?, read(z)?]));
     }
     Displacements::with_vectors(nodes, items).map_err(|error| error.to_string())
 }

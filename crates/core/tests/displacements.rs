@@ -6,7 +6,8 @@ use proptest::prelude::*;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::collections::BTreeSet;
-use viewcert::graph::{Coordinate, Displacements};
+use viewcert::graph::Displacements;
+use viewcert::linalg::rational::Rational;
 use viewcert::{Graph, Model, Options, Value, Verdict, decide};
 
 const P: u64 = (1 << 31) - 1;
@@ -173,7 +174,7 @@ impl Problem {
     }
 }
 
-fn number(n: i64) -> Coordinate {
+fn number(n: i64) -> Rational {
     n.to_string().parse().unwrap()
 }
 

@@ -2,7 +2,8 @@
 
 use super::error::GraphError;
 use super::union_find::UnionFind;
-use super::vectors::{self, Coordinate, Hanging, MAX_DIGITS, Vector, minus};
+use super::vectors::{self, Hanging, MAX_DIGITS, Vector, minus};
+use crate::linalg::rational::Rational;
 use sha2::{Digest, Sha256};
 use std::fmt;
 
@@ -132,8 +133,8 @@ impl Displacements {
     /// ```
     /// use viewcert::graph::Displacements;
     ///
-    /// let [zero, one, half] = ["0", "1", "0.5"].map(|text| text.parse().unwrap());
-    /// let rigs = [(0, 1, [one, zero, zero]), (2, 1, [half, zero, zero])];
+    /// let rigs = [(0, 1, ["1", "0", "0"]), (2, 1, ["0.5", "0", "0"])];
+    /// let rigs = rigs.map(|(u, v, vector)| (u, v, vector.map(|text| text.parse().unwrap())));
     /// let known = Displacements::with_vectors(3, rigs)?;
     /// assert_eq!(known.groups(), [vec![0, 1, 2]]);
     /// assert_eq!(known.vectors().unwrap(), [vec![[2, 0, 0], [1, 0, 0]]]);
@@ -141,7 +142,7 @@ impl Displacements {
     /// ```
     pub fn with_vectors(
         nodes: u32,
-        pairs: impl IntoIterator<Item = (u32, u32, [Coordinate; 3])>,
+        pairs: impl IntoIterator<Item = (u32, u32, [Rational; 3])>,
     ) -> Result<Self, VectorError> {
         let known = Self::anywhere(nodes, pairs)?;
         for (group, vectors) in known.groups.iter().zip(known.vectors.iter().flatten()) {
@@ -164,7 +165,7 @@ impl Displacements {
     /// As [`with_vectors`](Self::with_vectors), but for nodes at one place.
     pub fn anywhere(
         nodes: u32,
-        pairs: impl IntoIterator<Item = (u32, u32, [Coordinate; 3])>,
+        pairs: impl IntoIterator<Item = (u32, u32, [Rational; 3])>,
     ) -> Result<Self, VectorError> {
         let (pairs, given): (Vec<_>, Vec<_>) = pairs
             .into_iter()

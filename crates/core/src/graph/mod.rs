@@ -34,7 +34,7 @@ pub use labels::Labels;
 pub use leaves::prune_leaves;
 pub use lists::Lists;
 pub use union_find::UnionFind;
-pub use vectors::{Coordinate, CoordinateError};
+pub use vectors::{CoordinateError, coordinate};
 pub(crate) use vectors::{Hanging, gcd};
 pub use viewing_graph::Graph;
 

@@ -56,7 +56,7 @@ impl Graph {
 
     /// Builds a graph from pairs in any order and orientation; pairs given more
     /// than once are merged. Returns the graph and how many pairs were merged
-    /// away. O(m log m), or O(m + r log m) where only r pairs, few, are out of order; in place.
+    /// away. O(m log r) for r runs of pairs that are in order.
     ///
     /// # Errors
     /// A self-loop, or a node that is not below `nodes`.
@@ -64,8 +64,8 @@ impl Graph {
         let given = pairs.len();
         let shares = pairs.par_chunks_mut(SHARE);
         let looked: Vec<_> = shares.map(|share| sort::orient(nodes, share)).collect();
-        let descents: Vec<Vec<u16>> = looked.into_iter().collect::<Result<_, _>>()?;
-        sort::sort(&mut pairs, &descents);
+        let are_increasing: Vec<bool> = looked.into_iter().collect::<Result<_, _>>()?;
+        sort::sort(&mut pairs, &are_increasing);
         let merged = given - pairs.len();
         Ok((
             Self {

@@ -10,7 +10,9 @@ use crate::linalg::matrix::Matrix;
 use crate::linalg::prime::PrimeField;
 use crate::linalg::product::Product;
 use crate::linalg::textbook::Pivots;
-use crate::watch::{Stopped, Task, Work, unwatched};
+#[cfg(test)]
+use crate::watch::unwatched;
+use crate::watch::{Stopped, Task, Work};
 
 /// Columns of a panel: enough products to hide the reduction of their sum, few enough for a
 /// tile of the product to stay in the first-level cache.
@@ -262,8 +264,7 @@ impl Echelon {
         });
         // Unknown k meets column k of -L below the diagonal: w_k = r_k + sum w_l (-L)_lk.
         let entry = |k: usize, l: usize| self.factors[(k, self.pivot_cols[l])];
-        let finish = |_, value| value;
-        unwatched(|task| self.solve_backwards(&mut weights, entry, finish, &task.begin(0)));
+        unwatched(|task| self.solve_backwards(&mut weights, entry, &task.begin(0)));
         weights
     }
 
@@ -274,18 +275,16 @@ impl Echelon {
 
     /// A basis of the right kernel, one row for each column that is not a pivot,
     /// ascending: one at that column, zero at the other free columns.
-    /// O(rank^2) multiply-accumulates a vector.
+    /// O(rank * columns) multiply-accumulates a vector.
     pub fn right_kernel(&self) -> Matrix<u64> {
         let cols = self.factors.cols();
         let free = self.pivots().free_cols(cols);
-        let solutions = self.right_weights(&free);
+        let inverses = self.inverses();
         let mut kernel = Matrix::new(free.len(), cols, vec![0; free.len() * cols]);
         for (s, &col) in free.iter().enumerate() {
-            let row = kernel.row_mut(s);
-            row[col] = self.field.one();
-            for (&pivot, &value) in self.pivot_cols.iter().zip(solutions.row(s)) {
-                row[pivot] = value;
-            }
+            let x = kernel.row_mut(s);
+            x[col] = self.field.one();
+            self.solve_upper(&inverses, x, |_| 0);
         }
         kernel
     }
@@ -319,7 +318,7 @@ impl Echelon {
             work.done((rank * coefficients.cols()) as u64)?;
         }
         let entry = |k: usize, l: usize| self.factors[(k, self.pivot_cols[l])];
-        self.solve_backwards(&mut weights, entry, |_, value| value, work)?;
+        self.solve_backwards(&mut weights, entry, work)?;
         Ok(weights)
     }
 
@@ -330,22 +329,6 @@ impl Echelon {
         let blocks = (0..rank).step_by(PANEL);
         let backwards: u64 = blocks.map(|start| (start * PANEL) as u64).sum();
         count as u64 * ((rank * free) as u64 + backwards)
-    }
-
-    /// For each of the given columns, none a pivot: the weights of the pivot columns, in
-    /// pivot order, that make their sum with that column zero.
-    pub(crate) fn right_weights(&self, free: &[usize]) -> Matrix<u64> {
-        let mut weights = Matrix::from_fn(free.len(), self.rank(), |s, k| {
-            // Left of its pivot a row of U is zero.
-            let right = self.pivot_cols[k] < free[s];
-            if right {
-                self.field.negate(self.factors[(k, free[s])])
-            } else {
-                0
-            }
-        });
-        self.solve_upper(&mut weights);
-        weights
     }
 
     /// A solution x of A x = b, zero at the columns that are not pivots; `None` if there
@@ -373,36 +356,36 @@ impl Echelon {
                 return None;
             }
         }
-        let mut solutions = Matrix::new(1, rank, reduced);
-        self.solve_upper(&mut solutions);
         let mut x = vec![0; self.factors.cols()];
-        for (&col, &value) in self.pivot_cols.iter().zip(solutions.data()) {
-            x[col] = value;
-        }
+        self.solve_upper(&self.inverses(), &mut x, |k| reduced[k]);
         Some(x)
     }
 
-    /// Replaces every row r by the row x with U11 x^T = r^T.
-    fn solve_upper(&self, rows: &mut Matrix<u64>) {
-        let mut inverses: Vec<u64> = self
-            .pivot_cols
-            .iter()
-            .enumerate()
-            .map(|(k, &col)| self.factors[(k, col)])
-            .collect();
+    /// The inverses of the pivots.
+    fn inverses(&self) -> Vec<u64> {
+        let pivots = self.pivot_cols.iter().enumerate();
+        let mut inverses: Vec<u64> = pivots.map(|(k, &col)| self.factors[(k, col)]).collect();
         self.field.invert_all(&mut inverses);
-        let entry = |k: usize, l: usize| self.field.negate(self.factors[(l, self.pivot_cols[k])]);
-        let finish = |k: usize, value| self.field.times(value, inverses[k]);
-        unwatched(|task| self.solve_backwards(rows, entry, finish, &task.begin(0)));
+        inverses
     }
 
-    /// From the last unknown down: x_l = finish(l, r_l + sum_(k > l) x_k entry(k, l)),
+    /// Fills in the pivots' entries of an x with U x = `right`, last pivot first.
+    fn solve_upper(&self, inverses: &[u64], x: &mut [u64], right: impl Fn(usize) -> u64) {
+        for (k, &pivot) in self.pivot_cols.iter().enumerate().rev() {
+            let (row, behind) = (self.factors.row(k), pivot + 1);
+            let sum = self.field.dot(0, &row[behind..], &x[behind..]);
+            x[pivot] = self
+                .field
+                .times(self.field.minus(right(k), sum), inverses[k]);
+        }
+    }
+
+    /// From the last unknown down: x_l = r_l + sum_(k > l) x_k entry(k, l),
     /// for every row r at once, in blocks.
     fn solve_backwards(
         &self,
         rows: &mut Matrix<u64>,
         entry: impl Fn(usize, usize) -> u64,
-        finish: impl Fn(usize, u64) -> u64,
         work: &Work,
     ) -> Result<(), Stopped> {
         let rank = self.rank();
@@ -425,7 +408,7 @@ impl Echelon {
                     let sum = self
                         .field
                         .dot(row[l], &triangle[l - start], &row[l + 1..end]);
-                    row[l] = finish(l, sum);
+                    row[l] = sum;
                 }
                 block.extend_from_slice(&row[start..end]);
             }

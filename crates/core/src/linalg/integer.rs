@@ -8,7 +8,7 @@ use std::cmp::Ordering;
 use std::fmt;
 
 /// An integer of any size.
-#[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Integer(BigInt);
 
 /// A text that is not a decimal integer: an optional minus sign and digits.
@@ -166,6 +166,11 @@ impl Integer {
         } else {
             rest
         }
+    }
+
+    /// The same number, if it is one of 128 bits.
+    pub fn to_i128(&self) -> Option<i128> {
+        self.0.to_i128()
     }
 
     /// Reads an optional minus sign and decimal digits, nothing else.

@@ -7,7 +7,7 @@ use std::fmt;
 use std::str::FromStr;
 
 /// A rational number in lowest terms with a positive denominator.
-#[derive(Clone, PartialEq, Eq)]
+#[derive(Clone, PartialEq, Eq, Hash)]
 pub struct Rational {
     numerator: Integer,
     denominator: Integer,

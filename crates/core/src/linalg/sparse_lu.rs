@@ -5,6 +5,7 @@
 //! longer be avoided is eliminated as a dense matrix. The factors are kept: they give
 //! kernel vectors and solutions for many right-hand sides at once.
 
+#[cfg(test)]
 use crate::linalg::Ring;
 use crate::linalg::dense_lu::{Echelon, eliminate_mod};
 use crate::linalg::matrix::Matrix;
@@ -55,7 +56,7 @@ const ENTRY_BYTES: usize = size_of::<(usize, u64)>() + size_of::<usize>();
 /// let rows = vec![vec![(0, one), (1, minus)], vec![(1, one), (2, minus)], vec![(0, one), (2, minus)]];
 /// let done = unwatched(|task| Factorisation::new(&f, rows, 3, task));
 /// assert_eq!(done.rank(), 2);
-/// assert_eq!(done.right_kernel(done.free_cols()).data(), [one, one, one]);
+/// assert_eq!(done.free_cols().len(), 1);
 /// ```
 #[derive(Clone, Debug)]
 pub struct Factorisation {
@@ -536,58 +537,6 @@ impl Factorisation {
         Ok(kernel)
     }
 
-    /// Vectors x with A x = 0, one row of the result for each of the given free columns:
-    /// one at that column and zero at the other free columns. Over all free columns this
-    /// is a basis. Takes O(r^2) multiply-accumulates a vector, r the rank of the dense part, and
-    /// one pass over the sparse factors for every 8 vectors.
-    ///
-    /// # Panics
-    /// If a column is not free.
-    pub fn right_kernel(&self, free: &[usize]) -> Matrix<u64> {
-        assert!(
-            free.iter()
-                .all(|col| self.free_cols.binary_search(col).is_ok()),
-            "cols not free"
-        );
-        let places: Vec<Option<usize>> = free
-            .iter()
-            .map(|col| self.dense_cols.binary_search(col).ok())
-            .collect();
-        let in_dense: Vec<usize> = places.iter().copied().flatten().collect();
-        let weights = self.dense.right_weights(&in_dense);
-        let dense_pivots = self.dense.pivots().cols;
-        let mut next = 0..in_dense.len();
-        let dense_index: Vec<Option<usize>> = places
-            .iter()
-            .map(|place| place.and_then(|_| next.next()))
-            .collect();
-
-        let mut kernel = Matrix::new(free.len(), self.cols, vec![0; free.len() * self.cols]);
-        let chunk = LANES * self.cols.max(1);
-        let chunks = kernel
-            .data_mut()
-            .par_chunks_mut(chunk)
-            .zip(free.par_chunks(LANES));
-        chunks
-            .zip(dense_index.par_chunks(LANES))
-            .for_each(|((out, free), dense_index)| {
-                let mut x = vec![[0; LANES]; self.cols];
-                for (lane, &col) in free.iter().enumerate() {
-                    x[col][lane] = self.field.one();
-                }
-                for (k, &col) in dense_pivots.iter().enumerate() {
-                    for (x, index) in x[self.dense_cols[col]].iter_mut().zip(dense_index) {
-                        *x = index.map_or(0, |index| weights[(index, k)]);
-                    }
-                }
-                self.substitute(&mut x, |_| [0; LANES]);
-                for (col, x) in x.iter().enumerate() {
-                    self.store(out, self.cols, col, x);
-                }
-            });
-        kernel
-    }
-
     /// A vector of the kernel: `random` says what it is at the free columns. `rows` are those of the
     /// matrix.
     ///
@@ -638,27 +587,21 @@ impl Factorisation {
             return None;
         }
         let dense = self.dense.solve(&rest)?;
-        let mut x = vec![[0]; self.cols];
+        let mut x = vec![0; self.cols];
         for (&col, value) in self.dense_cols.iter().zip(dense) {
-            x[col] = [value];
+            x[col] = value;
         }
-        self.substitute(&mut x, |k| [reduced[k]]);
-        Some(x.into_iter().flatten().collect())
-    }
-
-    /// Solves for the sparse pivots' columns, last pivot first.
-    fn substitute<const N: usize>(&self, x: &mut [[u64; N]], right: impl Fn(usize) -> [u64; N]) {
         for (k, &col) in self.sparse.cols.iter().enumerate().rev() {
-            let mut sum = right(k);
-            for &(other, value) in &self.upper[k] {
-                self.add_lanes(&mut sum, self.field.negate(value), &x[other]);
-            }
-            x[col] = sum.map(|value| self.field.times(value, self.inverses[k]));
+            let terms = self.upper[k].iter();
+            let terms = terms.map(|&(other, value)| self.field.times(value, x[other]));
+            let rest = terms.fold(reduced[k], |rest, term| self.field.minus(rest, term));
+            x[col] = self.field.times(rest, self.inverses[k]);
         }
+        Some(x)
     }
 
     #[inline]
-    fn add_lanes<const N: usize>(&self, sum: &mut [u64; N], factor: u64, x: &[u64; N]) {
+    fn add_lanes(&self, sum: &mut [u64; LANES], factor: u64, x: &[u64; LANES]) {
         for (sum, &x) in sum.iter_mut().zip(x) {
             *sum = self.field.plus(*sum, self.field.times(factor, x));
         }
@@ -714,14 +657,10 @@ mod tests {
                 assert_eq!(left[(i, row)], if i == k { field.one() } else { 0 });
             }
         }
-        let right = done.right_kernel(done.free_cols());
-        assert_eq!(right.rows(), m.cols() - rank);
-        for s in 0..right.rows() {
-            assert!(multiply(field, m, right.row(s)).iter().all(|&x| x == 0));
-            for (k, &col) in done.free_cols().iter().enumerate() {
-                assert_eq!(right[(s, col)], if s == k { field.one() } else { 0 });
-            }
-        }
+        let vector = done.kernel_vector(&sparse(m), || field.from_u64(3));
+        assert!(multiply(field, m, &vector).iter().all(|&x| x == 0));
+        let free = done.free_cols();
+        assert!(free.iter().all(|&col| vector[col] == field.from_u64(3)));
         let x: Vec<u64> = (0..m.cols() as u64)
             .map(|k| field.from_u64(k * k + 1))
             .collect();

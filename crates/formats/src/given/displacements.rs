@@ -11,7 +11,9 @@ use crate::edge_list::refusal::shown;
 use crate::error::{Fault, Place, Problem};
 use crate::given::{Given, at_one_place, known_in, one_place, turned, unmeasured};
 use std::collections::{BTreeSet, HashMap};
-use viewcert::graph::{Coordinate, CoordinateError, Displacements, VectorError};
+use viewcert::graph::{CoordinateError, Displacements, VectorError};
+use viewcert::linalg::Ring;
+use viewcert::linalg::rational::{Rational, Rationals};
 use viewcert::wording::counted;
 
 /// The lines so far.
@@ -26,7 +28,7 @@ pub(super) struct Lines {
     positions: Vec<(u64, u32, Option<Vector>)>,
 }
 
-type Vector = [Coordinate; 3];
+pub(super) type Vector = [Rational; 3];
 
 impl Lines {
     pub(super) fn is_empty(&self) -> bool {
@@ -149,14 +151,11 @@ impl Lines {
             if alone.contains(&about) || again.contains(&about) {
                 continue;
             }
-            let &mut (start, from) = first.get_or_insert((about, place));
-            if about != start {
-                let vector = place
-                    .zip(from)
-                    .map(|(to, from)| between(from, to))
-                    .transpose();
-                let vector = vector.map_err(|problem| Place::Line(number).fault(problem))?;
-                self.pairs.push((number, (start, about), vector));
+            let (start, from) = first.get_or_insert_with(|| (about, place.clone()));
+            if about != *start {
+                let vector = place.as_ref().zip(from.as_ref());
+                let vector = vector.map(|(to, from)| between(from, to));
+                self.pairs.push((number, (*start, about), vector));
             }
         }
         Ok(note)
@@ -166,7 +165,7 @@ impl Lines {
     fn known(&self, graph: &NamedGraph, one_frame: bool) -> Result<Displacements, Fault> {
         let nodes = graph.graph.nodes() as u32;
         let pairs = self.pairs.iter().map(|line| line.1);
-        let given: Option<Vec<Vector>> = self.pairs.iter().map(|line| line.2).collect();
+        let given: Option<Vec<Vector>> = self.pairs.iter().map(|line| line.2.clone()).collect();
         let Some(given) = given.filter(|given| !given.is_empty()) else {
             return Ok(Displacements::new(nodes, pairs).expect("pairs of the graph's nodes"));
         };
@@ -237,9 +236,9 @@ fn apart(
 }
 
 /// A coordinate of a vector or a position.
-fn coordinate(line: &str, field: &Field) -> Result<Coordinate, Problem> {
+fn coordinate(line: &str, field: &Field) -> Result<Rational, Problem> {
     let text = field.text(line);
-    text.parse().map_err(|why: CoordinateError| {
+    viewcert::graph::coordinate(&text).map_err(|why: CoordinateError| {
         Problem::new(
             format!("`{}` is {why}", shown(&text)),
             "give three numbers, decimal (-1.25, 3e-2) or fractions (1/3)",
@@ -247,8 +246,7 @@ fn coordinate(line: &str, field: &Field) -> Result<Coordinate, Problem> {
     })
 }
 
-/// The vector from one position to another.
-fn between(from: Vector, to: Vector) -> Result<Vector, Problem> {
-    let minus = |k: usize| to[k].minus(from[k]).map_err(|_| long_vectors());
-    Ok([minus(0)?, minus(1)?, minus(2)?])
+/// The vector from one place to another.
+pub(super) fn between(from: &Vector, to: &Vector) -> Vector {
+    [0, 1, 2].map(|k| Rationals.sub(&to[k], &from[k]))
 }

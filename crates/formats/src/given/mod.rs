@@ -21,7 +21,7 @@ use crate::edge_list::fields::split;
 use crate::edge_list::refusal::shown;
 use crate::error::{Fault, Problem, ReadError};
 use crate::{NamedGraph, colmap, whole};
-use viewcert::graph::{Coordinate, Displacements, UnionFind};
+use viewcert::graph::{Displacements, UnionFind};
 use viewcert::wording::counted;
 use viewcert::{Known, Model};
 
@@ -265,12 +265,12 @@ fn known_in(given: Displacements, one_frame: bool) -> Known {
 /// Cameras of one part at one place have one position: that of the first of them. Returns the others
 /// that are left out, and a note about them. All cameras are one part if they have one frame.
 fn at_one_place<'p>(
-    places: impl Iterator<Item = (u32, &'p [Coordinate; 3])>,
+    places: impl Iterator<Item = (u32, &'p displacements::Vector)>,
     input: &NamedGraph,
     one_frame: bool,
 ) -> (BTreeSet<u32>, Option<String>) {
     let mut parts = turned(input);
-    let mut at: HashMap<(usize, &[Coordinate; 3]), u32> = HashMap::new();
+    let mut at: HashMap<(usize, &displacements::Vector), u32> = HashMap::new();
     let mut again: Vec<(u32, u32)> = Vec::new();
     for (node, place) in places {
         let part = if one_frame {

@@ -11,9 +11,9 @@ use crate::NamedGraph;
 use crate::cameras::Cameras;
 use crate::colmap::{PosePriors, pose_priors};
 use crate::error::{Fault, Place, Problem, ReadError};
-use crate::given::displacements::long_vectors;
+use crate::given::displacements::{Vector, between, long_vectors};
 use crate::given::{Given, POSITIONS, at_one_place, known_in, one_place, unmeasured};
-use viewcert::graph::{Coordinate, CoordinateError, Displacements};
+use viewcert::graph::{CoordinateError, Displacements, coordinate};
 use viewcert::wording::counted;
 
 /// That the pose priors of a graph's own database would be known positions if they were asked for: they are
@@ -54,7 +54,7 @@ fn of(priors: &PosePriors, graph: &NamedGraph, one_frame: bool) -> Result<Given,
         .flat_map(|(&camera, names)| names.iter().map(move |name| (&**name, camera)))
         .collect();
     let node = |name: &str| aliases.get(name).copied().or_else(|| cameras.node(name));
-    let mut known: BTreeMap<u32, [Coordinate; 3]> = BTreeMap::new();
+    let mut known: BTreeMap<u32, Vector> = BTreeMap::new();
     let mut strangers = 0;
     for (name, &place) in &priors.positions {
         match node(name) {
@@ -72,7 +72,7 @@ fn of(priors: &PosePriors, graph: &NamedGraph, one_frame: bool) -> Result<Given,
     let (alone, of_alone) = unmeasured(known.keys().copied(), graph, one_frame);
     known.retain(|node, _| !again.contains(node) && !alone.contains(node));
     let first = known.iter().next();
-    let Some((&first, &start)) = first.filter(|_| known.len() > 1) else {
+    let Some((&first, start)) = first.filter(|_| known.len() > 1) else {
         let problem = match count {
             0 | 1 => Problem::new(
                 format!(
@@ -85,19 +85,10 @@ fn of(priors: &PosePriors, graph: &NamedGraph, one_frame: bool) -> Result<Given,
         };
         return Err(problem.into());
     };
-    let vectors: Result<Vec<_>, CoordinateError> = known
-        .iter()
-        .skip(1)
-        .map(|(&other, place)| {
-            let minus = |k: usize| place[k].minus(start[k]);
-            Ok((first, other, [minus(0)?, minus(1)?, minus(2)?]))
-        })
-        .collect();
-    let nodes = graph.graph.nodes() as u32;
-    let group = vectors
-        .ok()
-        .and_then(|vectors| Displacements::anywhere(nodes, vectors).ok());
-    let group = group.ok_or_else(long_vectors)?;
+    let others = known.iter().skip(1);
+    let vectors = others.map(|(&other, place)| (first, other, between(start, place)));
+    let group = Displacements::anywhere(graph.graph.nodes() as u32, vectors);
+    let group = group.map_err(|_| long_vectors())?;
     let notes = notes(priors, count, strangers, one_frame);
     Ok(Given {
         known: known_in(group, one_frame),
@@ -107,13 +98,17 @@ fn of(priors: &PosePriors, graph: &NamedGraph, one_frame: bool) -> Result<Given,
 
 /// A position as exact numbers: x, y, z to six decimals; of latitude and longitude in degrees, and altitude, the
 /// centre of the Earth the origin, metres to three decimals.
-fn rounded(place: [f64; 3], on_earth: bool) -> Result<[Coordinate; 3], CoordinateError> {
+fn rounded(place: [f64; 3], on_earth: bool) -> Result<Vector, CoordinateError> {
     let text = |number: f64| match on_earth {
         true => format!("{number:.3}"),
         false => format!("{number:.6}"),
     };
     let [x, y, z] = if on_earth { from_centre(place) } else { place };
-    Ok([text(x).parse()?, text(y).parse()?, text(z).parse()?])
+    Ok([
+        coordinate(&text(x))?,
+        coordinate(&text(y))?,
+        coordinate(&text(z))?,
+    ])
 }
 
 /// Latitude, longitude and altitude in metres from the centre of the Earth, on the ellipsoid of WGS84.
