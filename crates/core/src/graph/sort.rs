@@ -1,4 +1,4 @@
-//! Sorting pairs that are nearly sorted already, as lists of pairs mostly are.
+//! Sorting pairs that are sorted already, as lists of pairs often are.
 //!
 //! In: pairs in any order. Out: the same, turned and sorted, each of them once.
 
@@ -37,12 +37,12 @@ pub(super) fn orient(nodes: u32, share: &mut [(u32, u32)]) -> Result<bool, Graph
 }
 
 /// Sorts pairs and leaves out those that are given again, unless their shares are increasing and follow
-/// each other. Runs that are in order are merged: O(m log r) for r of them.
+/// each other. O(m log m), or O(m / share) if they are.
 pub(super) fn sort(pairs: &mut Vec<(u32, u32)>, are_increasing: &[bool]) {
     let follow = |first: usize| pairs[first - 1] < pairs[first];
     let are_increasing = are_increasing.iter().all(|is| *is);
     if !are_increasing || !(SHARE..pairs.len()).step_by(SHARE).all(follow) {
-        pairs.par_sort();
+        pairs.par_sort_unstable();
         pairs.dedup();
     }
 }

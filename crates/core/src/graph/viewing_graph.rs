@@ -56,7 +56,7 @@ impl Graph {
 
     /// Builds a graph from pairs in any order and orientation; pairs given more
     /// than once are merged. Returns the graph and how many pairs were merged
-    /// away. O(m log r) for r runs of pairs that are in order.
+    /// away. O(m log m), or O(m) if they are in order; in place.
     ///
     /// # Errors
     /// A self-loop, or a node that is not below `nodes`.

@@ -13,6 +13,7 @@ use crate::linalg::textbook::Pivots;
 #[cfg(test)]
 use crate::watch::unwatched;
 use crate::watch::{Stopped, Task, Work};
+use rayon::prelude::*;
 
 /// Columns of a panel: enough products to hide the reduction of their sum, few enough for a
 /// tile of the product to stay in the first-level cache.
@@ -281,11 +282,11 @@ impl Echelon {
         let free = self.pivots().free_cols(cols);
         let inverses = self.inverses();
         let mut kernel = Matrix::new(free.len(), cols, vec![0; free.len() * cols]);
-        for (s, &col) in free.iter().enumerate() {
-            let x = kernel.row_mut(s);
+        let vectors = kernel.data_mut().par_chunks_mut(cols.max(1));
+        vectors.zip(&free).for_each(|(x, &col)| {
             x[col] = self.field.one();
             self.solve_upper(&inverses, x, |_| 0);
-        }
+        });
         kernel
     }
 
