@@ -170,16 +170,6 @@ impl Parts {
         }
         edges
     }
-
-    /// All components that an image is in, increasing.
-    pub fn components_of(&self, node: u32) -> Vec<usize> {
-        let parts = self.of(node).iter();
-        let parts = parts.map(|&k| self.parts[k as usize].component);
-        let links = self.links_at(node).map(|(_, component)| component);
-        let mut found: Vec<usize> = parts.chain(links).collect();
-        found.sort_unstable();
-        found
-    }
 }
 
 /// A part as a graph of its own.

@@ -66,11 +66,6 @@ impl Entry {
         }
     }
 
-    /// Whether the graph is finite solvable, or the answer is not proved.
-    pub fn is_notable(&self) -> bool {
-        self.value != Value::NotFiniteSolvable || self.strength != Strength::Proof
-    }
-
     /// The entry as a row of a table with [`COLUMNS`].
     pub fn cells(&self) -> [String; 9] {
         let strength = |strength: Strength| match strength {
@@ -170,17 +165,6 @@ impl Summary {
         }
         self.rank_proved += u64::from(entry.rank_strength == Strength::Proof);
         self.components_proved += u64::from(entry.components_strength == Strength::Proof);
-    }
-
-    /// Whether every graph has one answer, and no count is of more graphs than there are.
-    pub fn adds_up(&self) -> bool {
-        let answers = u128::from(self.unique)
-            + u128::from(self.finite)
-            + u128::from(self.refuted)
-            + u128::from(self.unproved);
-        answers == u128::from(self.candidates)
-            && self.hub <= self.refuted
-            && self.rank_proved.max(self.components_proved) <= self.candidates
     }
 
     /// Adds the counts of other graphs.

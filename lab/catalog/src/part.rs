@@ -9,7 +9,7 @@ use crate::files;
 use crate::run::Run;
 use crate::set_digest::SetDigest;
 use crate::shard::Shard;
-use crate::source::Decided;
+use crate::source::{Decided, is_notable};
 use anyhow::{Context, Result};
 use flate2::Compression;
 use flate2::write::GzEncoder;
@@ -185,7 +185,7 @@ impl Place<'_> {
         let agree = all_decided
             && end.summary.candidates <= end.candidates
             && end.candidates <= u64::from(run.part)
-            && end.summary.adds_up()
+            && adds_up(&end.summary)
             && rows_agree(rows, end, run.solvable_only);
         (!agree).then(|| "its lines and its counts do not add up".into())
     }
@@ -204,9 +204,17 @@ impl Place<'_> {
     }
 }
 
+/// Whether every graph has one answer, and no count is of more graphs than there are.
+fn adds_up(of: &Summary) -> bool {
+    let answers = [of.unique, of.finite, of.refuted, of.unproved];
+    answers.map(u128::from).into_iter().sum::<u128>() == u128::from(of.candidates)
+        && of.hub <= of.refuted
+        && of.rank_proved.max(of.components_proved) <= of.candidates
+}
+
 /// Whether an entry has a line, and a certificate where there are any.
 pub(crate) fn is_kept(run: &Run, entry: &Entry) -> bool {
-    !run.solvable_only || entry.is_notable()
+    !run.solvable_only || is_notable(entry)
 }
 
 /// The line of an entry.

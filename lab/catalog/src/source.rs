@@ -6,7 +6,7 @@ use anyhow::{Error, Result, ensure};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
-use viewcert::decide::{Options, Verdict, VerdictError, decide};
+use viewcert::decide::{Options, Strength, Value, Verdict, VerdictError, decide};
 use viewcert::graph::Graph;
 use viewcert_catalog::mine::Entry;
 use viewcert_formats::{Format, ReadOptions, read_graphs};
@@ -253,8 +253,13 @@ pub enum Certified {
 
 impl Certified {
     fn holds(self, entry: &Entry) -> bool {
-        self == Self::All || self == Self::Notable && entry.is_notable()
+        self == Self::All || self == Self::Notable && is_notable(entry)
     }
+}
+
+/// Whether the graph is finite solvable, or the answer is not proved.
+pub(crate) fn is_notable(entry: &Entry) -> bool {
+    entry.value != Value::NotFiniteSolvable || entry.strength != Strength::Proof
 }
 
 /// What a source is, in the files of its shards.

@@ -7,12 +7,13 @@
 //! [`components`](viewcert_audit::components) runs it, with all pairs at every step; and as the paper
 //! writes it, with the pairs that are left, from every pair as the first.
 
+use crate::formulation::augmented::augmented_size;
 use crate::paper_components;
 use rayon::prelude::*;
 use std::ops::RangeInclusive;
 use viewcert::geometry::draw;
 use viewcert::geometry::draw::{DrawError, DrawKey};
-use viewcert::geometry::jacobian::{augmented_size, reference};
+use viewcert::geometry::jacobian::reference;
 use viewcert::graph::{Graph, sha256};
 use viewcert::linalg::prime::PrimeField;
 

@@ -1,11 +1,11 @@
 //! Many draws: how often a tolerance misjudges.
 
+use crate::formulation::augmented::augmented_size;
 use crate::dense::{Columns, least_eigenvalue, singular};
 use rayon::prelude::*;
 use std::fmt;
 use std::ops::Range;
 use std::str::FromStr;
-use viewcert::geometry::jacobian::augmented_size;
 use viewcert::graph::Graph;
 use viewcert_audit::{AuditError, Options, augmented, decide};
 

@@ -225,11 +225,6 @@ impl Default for Known {
 }
 
 impl Known {
-    /// The parts; none if displacements are known.
-    pub fn into_parts(self) -> KnownParts {
-        self.split().0
-    }
-
     /// Parts and displacements; one of both is empty.
     pub(super) fn split(self) -> (KnownParts, Displacements) {
         match self {

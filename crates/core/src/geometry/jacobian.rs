@@ -197,12 +197,6 @@ pub fn reference(graph: &Graph) -> usize {
     best.1
 }
 
-/// Rows and columns of the augmented Jacobian.
-pub fn augmented_size(graph: &Graph) -> (usize, usize) {
-    let nodes = graph.nodes();
-    (10 * graph.edges().len() + nodes + 15, 12 * nodes)
-}
-
 /// The rows of the paper's section 4.1 that remove the trivial motions; below J_P they
 /// make J, of 10m + n + 15 rows, with rank J = rank J_P + n + 15 at generic cameras.
 ///

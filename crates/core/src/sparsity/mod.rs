@@ -94,17 +94,4 @@ impl<const K: usize, const L: usize> Sparsity<K, L> {
     pub fn components(&self) -> usize {
         self.components
     }
-
-    /// The nodes of each component, increasing. O(m log m).
-    pub fn component_nodes(&self, graph: &Graph) -> Vec<Vec<u32>> {
-        let mut nodes = vec![Vec::new(); self.components];
-        for (&component, &(i, j)) in self.component.iter().zip(graph.edges()) {
-            nodes[component as usize].extend([i, j]);
-        }
-        for nodes in &mut nodes {
-            nodes.sort_unstable();
-            nodes.dedup();
-        }
-        nodes
-    }
 }

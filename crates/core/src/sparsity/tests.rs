@@ -75,9 +75,11 @@ fn component_sets<const K: usize, const L: usize>(
     graph: &Graph,
     found: &Sparsity<K, L>,
 ) -> BTreeSet<u32> {
-    let nodes = found.component_nodes(graph);
-    let sets = nodes.iter().map(|nodes| nodes.iter().map(|v| 1 << v).sum());
-    let sets: BTreeSet<u32> = sets.collect();
+    let mut sets = vec![0; found.components()];
+    for (&component, &(i, j)) in found.component_of_edges().iter().zip(graph.edges()) {
+        sets[component as usize] |= 1 << i | 1 << j;
+    }
+    let sets: BTreeSet<u32> = sets.into_iter().collect();
     assert_eq!(sets.len(), found.components(), "components are different");
     sets
 }

@@ -15,7 +15,16 @@ use viewcert::watch::unwatched;
 /// 11 n_B - 15, in the order of their first edges; any two share at most one node. Of
 /// those partitions this is the coarsest. O(n^2 + m).
 pub fn blocks(graph: &Graph) -> Vec<Vec<u32>> {
-    unwatched(|task| Projective::new(graph, task)).component_nodes(graph)
+    let found = unwatched(|task| Projective::new(graph, task));
+    let mut nodes = vec![Vec::new(); found.components()];
+    for (&component, &(i, j)) in found.component_of_edges().iter().zip(graph.edges()) {
+        nodes[component as usize].extend([i, j]);
+    }
+    for nodes in &mut nodes {
+        nodes.sort_unstable();
+        nodes.dedup();
+    }
+    nodes
 }
 
 #[cfg(test)]

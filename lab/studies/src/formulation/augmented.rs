@@ -4,9 +4,15 @@
 use crate::formulation::Formulation;
 use viewcert::geometry::camera::{Camera, centre};
 use viewcert::geometry::jacobian;
-use viewcert::geometry::jacobian::{SparseRows, augmented_size, reference};
+use viewcert::geometry::jacobian::{SparseRows, reference};
 use viewcert::graph::Graph;
 use viewcert::linalg::Field;
+
+/// Rows and columns of the augmented Jacobian.
+pub(crate) fn augmented_size(graph: &Graph) -> (usize, usize) {
+    let nodes = graph.nodes();
+    (10 * graph.edges().len() + nodes + 15, 12 * nodes)
+}
 
 /// The augmented Jacobian with [`reference()`] as the pair that carries the frame: full
 /// column rank 12n exactly for finite solvable graphs.
