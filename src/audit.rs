@@ -11,6 +11,7 @@ use std::time::{Duration, Instant};
 use viewcert::Model;
 use viewcert::at_cameras::{Centres, Here};
 use viewcert::decide;
+use viewcert::watch::Watch;
 use viewcert_audit::at_cameras;
 use viewcert_audit::claims::{self, Ruling};
 use viewcert_audit::enclosure::{Matrix, SigmaError, enclose};
@@ -128,22 +129,16 @@ fn all_claims(session: &Session, arguments: &AuditArguments, path: &Path) -> Res
     let rows = claims::read_table(&whole::text(path)?).map_err(|error| refused(path, &error))?;
     let (out, json) = (&mut outputs::text(&[]), arguments.json);
     let lines = rows.iter().map(|row| (row.line, row));
-    rule_all(
-        session,
-        (path, json),
-        lines,
-        out,
-        &mut |out, number, row| {
-            let of = claims::claim(row)?;
-            let input = &of.graph()?;
-            let found = claims::ruled(&of, input, &arguments.exact(session));
-            let (ruling, exact) = found.with_context(|| input.name.clone())?;
-            let row = Some((number, &of.claim, &ruling));
-            let found = Found::Generic(&exact);
-            Ruled { row, input, found }.write(out, json)?;
-            Ok(ruling)
-        },
-    )
+    let mut rule = |out: &mut _, number, row| {
+        let of = claims::claim(row)?;
+        let input = &of.graph()?;
+        let found = claims::ruled(&of, input, &arguments.exact(session));
+        let (ruling, exact) = found.with_context(|| input.name.clone())?;
+        let (row, found) = (Some((number, &of.claim, &ruling)), Found::Generic(&exact));
+        Ruled { row, input, found }.write(out, json)?;
+        Ok(ruling)
+    };
+    rule_all(session, (path, json), lines, out, &mut rule)
 }
 
 /// Rules on rows with their lines, and sums up; a bad one is reported and does not stop the others.
@@ -189,12 +184,8 @@ fn rule_all<T, W: Write>(
     Ok(worst.max(if refuted > 0 { NOT } else { GOOD }))
 }
 
-/// The exact answer in one model, and the cameras as they were read.
-struct Exact {
-    input: NamedGraph,
-    centres: Centres,
-    here: Here,
-}
+/// The cameras as they were read, and the exact answer in one model.
+type Exact = (NamedGraph, Centres, Here);
 
 /// Rules on what floating point found at the cameras of a file, or says what is so where there is no table.
 fn at_given_cameras(session: &Session, arguments: &AuditArguments, path: &Path) -> Result<u8> {
@@ -217,37 +208,23 @@ fn at_given_cameras(session: &Session, arguments: &AuditArguments, path: &Path) 
     let each = |out: &mut _, input: &NamedGraph, _| {
         let mut answers: Vec<Exact> = Vec::new();
         for &model in &models {
-            if answers.iter().all(|answer| answer.here.model != model) {
+            if answers.iter().all(|(.., here)| here.model != model) {
                 answers.push(exact(session, input, path, model)?);
             }
         }
         if !json {
-            head(out, &answers[0].input)?;
+            head(out, &answers[0].0)?;
         }
         let Some((table, rows)) = &table else {
-            let Exact {
-                input,
-                centres,
-                here,
-            } = &answers[0];
-            let enclosed = |_| {
-                let (at, watch) = ((centres, here), session.shown_watch());
-                enclose(Matrix::Plain, &input.graph, at, (None, None), &watch)
-            };
-            let sigma = centres
-                .cameras()
-                .map(enclosed)
-                .transpose()
-                .map_err(not_enclosed)?;
-            session.hide();
+            let (input, centres, here) = &answers[0];
+            let at = (centres, here);
+            let enclosed =
+                |watch: &Watch| enclose(Matrix::Plain, &input.graph, at, (None, None), watch);
+            let sigma = centres.cameras().map(|_| session.watched(enclosed));
+            let sigma = sigma.transpose().map_err(not_enclosed)?;
             let sigma = sigma.map(|found| (Matrix::Plain, found));
-            let found = Found::AtCameras(here, sigma.as_ref());
-            Ruled {
-                row: None,
-                input,
-                found,
-            }
-            .write(out, json)?;
+            let (row, found) = (None, Found::AtCameras(here, sigma.as_ref()));
+            Ruled { row, input, found }.write(out, json)?;
             return Ok(GOOD);
         };
         let lines = rows.iter().map(|of| (of.claim.line, of));
@@ -257,12 +234,8 @@ fn at_given_cameras(session: &Session, arguments: &AuditArguments, path: &Path) 
             lines,
             out,
             &mut |out, number, of| {
-                let at = answers.iter().find(|at| at.here.model == of.claim.model);
-                let Exact {
-                    input,
-                    centres,
-                    here,
-                } = at.context("every model is decided")?;
+                let at = answers.iter().find(|at| at.2.model == of.claim.model);
+                let (input, centres, here) = at.context("every model is decided")?;
                 let at = (centres, here);
                 let found = session.watched(|watch| at_cameras::ruled(of, &input.graph, at, watch));
                 let (ruling, sigma) = found.map_err(not_enclosed)?;
@@ -290,11 +263,7 @@ fn exact(session: &Session, input: &NamedGraph, path: &Path, model: Model) -> Re
     let input = noted(input, cameras.notes).into_owned();
     let here =
         session.watched(|watch| crate::at_cameras::decide(&input, &cameras.centres, watch))?;
-    Ok(Exact {
-        input,
-        centres: cameras.centres,
-        here,
-    })
+    Ok((input, cameras.centres, here))
 }
 
 /// Why a singular value is not enclosed.

@@ -57,7 +57,7 @@ pub(super) fn run(session: &Session, arguments: &ConvertArguments) -> Result<u8>
     let inputs = [Some(&**path), file];
     outputs::ensure_apart(&[("--output", output)], inputs.into_iter().flatten())?;
     let options = if arguments.tracks {
-        arguments.input.of_tracks()
+        arguments.input.reading().tracks
     } else {
         arguments.input.of_pairs()?
     };

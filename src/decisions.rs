@@ -1,7 +1,7 @@
 //! A plan, carried out: every graph decided, certified, reported.
 
 use super::certificates::Target;
-use super::given::{Beside, read_beside};
+use super::given::beside_file;
 use super::input::{Reading, SIDE_BY_SIDE};
 use super::plan::{Form, Plan, Products};
 use super::witness;
@@ -18,15 +18,12 @@ use viewcert::decide::{CountSolutions, Prime, Verdict};
 use viewcert::intrinsics::{Certified, Sensors};
 use viewcert::watch::Watch;
 use viewcert_advice::Advice;
-use viewcert_advice::priors::Priors;
-use viewcert_formats::NamedGraph;
-use viewcert_report::assumptions::{BaseLines, Scope, out_of_planes};
+use viewcert_formats::{Beside, NamedGraph, beside};
+use viewcert_report::assumptions::{BaseLines, Scope, of_intrinsics};
 use viewcert_report::at_cameras::HereReport;
-use viewcert_report::intrinsics::IntrinsicsLine;
 use viewcert_report::many::Table;
 use viewcert_report::motion;
 use viewcert_report::next::overview_of;
-use viewcert_report::priors::PriorsLine;
 use viewcert_report::scene::Scene;
 use viewcert_report::{Report, WrittenProof, json};
 use viewcert_session::exit::{GOOD, NOT, ends_run};
@@ -101,36 +98,27 @@ impl Decided {
     /// # Errors
     /// What cannot be asked of it; no verdict.
     fn new(plan: &Plan, input: &NamedGraph, watch: &Watch) -> Result<Self> {
-        let (input, known, besides) = match read_beside(
-            plan.given.as_deref(),
-            input,
-            plan.question.model,
-            plan.one_frame,
-        )? {
-            Beside::Known(input, known) => {
+        let from = (plan.given.as_deref(), plan.one_frame);
+        let (mut input, known, besides) = match beside(from.0, input, plan.question.model, from.1)?
+        {
+            Beside::Known(found) => {
+                let input = beside_file(input, found.notes, from);
                 let (input, sensors) = intrinsics::read(plan.intrinsics.as_ref(), input)?;
-                (
-                    input,
-                    known,
-                    sensors.map_or(Besides::Nothing, Besides::Sensors),
-                )
+                let besides = sensors.map_or(Besides::Nothing, Besides::Sensors);
+                (input, found.known, besides)
             }
-            Beside::Cameras(input, centres) => {
+            Beside::Cameras(cameras) => {
                 ensure!(
                     !matches!(plan.form, Form::Table),
                     "--table: a row does not say what holds at given cameras; leave out one of the two"
                 );
-                (
-                    Cow::Owned(input),
-                    Known::default(),
-                    Besides::Cameras(centres),
-                )
+                let input = beside_file(input, cameras.notes, from);
+                (input, Known::default(), Besides::Cameras(cameras.centres))
             }
         };
         let options = plan.options(known)?.watch(watch.clone());
         let verdict =
             verdict::decide(&input.graph, &options).with_context(|| input.name.clone())?;
-        let mut input = input;
         if matches!(plan.prime, Prime::Fixed(_)) && verdict.prime().is_none() {
             let note = "--prime is not used: contraction and counting decide, without residues";
             input.to_mut().notes.push(note.to_owned());
@@ -191,18 +179,12 @@ impl Work<'_> {
                 let decide =
                     |watch: &Watch| intrinsics::decide(input, verdict, sensors, certify, watch);
                 let (metric, evidence) = session.watched(decide).with_context(name)?;
-                let line = IntrinsicsLine::new(input, sensors, &metric, plan.list_components);
-                let line =
-                    session.watched(|watch| out_of_planes(line, &input.graph, verdict, watch));
-                let mut line = line.with_context(name)?;
-                if let Some(most) = plan.priors {
-                    let (graph, seed) = (&input.graph, plan.seed);
-                    let find =
-                        |watch: &Watch| Priors::new(graph, verdict, sensors, &metric, seed, watch);
-                    let priors = &session.watched(find).with_context(name)?;
-                    let most = most as usize;
-                    line = line.with_priors(PriorsLine::new(input, sensors, &metric, priors, most));
-                }
+                let (answer, found) = ((input, verdict), (sensors, &metric));
+                let priors = plan.priors.map(|most| (most, plan.seed));
+                let line = session.watched(|watch| {
+                    of_intrinsics(answer, found, plan.list_components, priors, watch)
+                });
+                let line = line.with_context(name)?;
                 scope = scope.with_intrinsics(line);
                 certified = evidence;
             }

@@ -57,11 +57,7 @@ pub(super) fn overview(session: &Session, arguments: &OverviewArguments) -> Resu
         ensure!(arguments.inputs.len() == 1, reason);
     }
     let mut out = outputs::text(&[page]);
-    let asked = overview::Asked {
-        options: arguments.input.read_options(),
-        of_tracks: arguments.input.of_tracks(),
-        of_tracks_alone: arguments.input.of_tracks_alone(),
-    };
+    let asked = overview::Asked(arguments.input.reading());
     let each = |out: &mut _, path: &Path, read: Result<Input, ReadError>, start| {
         asked.of_read(session, (path, read, start), |found| {
             if let Some(file) = page {
@@ -107,9 +103,7 @@ pub(super) fn lists(session: &Session, arguments: &ListArguments) -> Result<u8> 
     let asked = lists::Asked {
         graph: &arguments.graph,
         files: &arguments.files,
-        options: arguments.input.read_options(),
-        of_tracks: arguments.input.of_tracks(),
-        of_tracks_alone: arguments.input.of_tracks_alone(),
+        reading: arguments.input.reading(),
     };
     let done = asked.of(session, |report| {
         outputs::answer(
@@ -150,7 +144,7 @@ pub(super) fn merge(session: &Session, arguments: &MergeArguments) -> Result<u8>
     let asked = merge::Asked {
         models: [&arguments.one, &arguments.other],
         database: arguments.database.as_deref(),
-        options: arguments.input.of_tracks(),
+        options: arguments.input.reading().tracks,
     };
     let done = asked.of(session, |report| {
         outputs::answer(

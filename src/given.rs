@@ -7,9 +7,8 @@ use anyhow::{Result, ensure};
 use clap::Args;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
-use viewcert::at_cameras::Centres;
-use viewcert::{Known, Model};
-use viewcert_formats::{NamedGraph, beside};
+use viewcert::Known;
+use viewcert_formats::NamedGraph;
 
 /// The option.
 pub(super) const OPTION: &str = "--given";
@@ -105,38 +104,8 @@ pub(super) fn read<'a>(
     ))
 }
 
-/// What a file gives, with the graph that has the notes on it.
-pub(super) enum Beside<'a> {
-    /// The cameras themselves.
-    Cameras(NamedGraph, Centres),
-    /// What is known of them, the rigs of the graph included.
-    Known(Cow<'a, NamedGraph>, Known),
-}
-
-/// As [`read`]; or the cameras that the file gives.
-///
-/// # Errors
-/// Those of the file; a camera that the model excludes.
-pub(super) fn read_beside<'a>(
-    given: Option<&Path>,
-    input: &'a NamedGraph,
-    model: Model,
-    one_frame: bool,
-) -> Result<Beside<'a>> {
-    Ok(match beside(given, input, model, one_frame)? {
-        viewcert_formats::Beside::Cameras(cameras) => {
-            let input = beside_file(input, cameras.notes, (given, one_frame)).into_owned();
-            Beside::Cameras(input, cameras.centres)
-        }
-        viewcert_formats::Beside::Known(found) => Beside::Known(
-            beside_file(input, found.notes, (given, one_frame)),
-            found.known,
-        ),
-    })
-}
-
 /// A graph with the notes on a file, which its records name.
-fn beside_file<'a>(
+pub(super) fn beside_file<'a>(
     input: &'a NamedGraph,
     notes: Vec<String>,
     (file, one_frame): (Option<&Path>, bool),

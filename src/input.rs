@@ -8,11 +8,10 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use viewcert::watch::Watch;
-use viewcert_ask::{Input, Inputs};
+use viewcert_ask::{HowRead, Input, Inputs};
 use viewcert_formats::colmap::Pipeline;
 use viewcert_formats::{
-    Columns, Decimal, Format, ListOptions, NamedGraph, ReadError, ReadOptions, TrackOptions,
-    read_graphs,
+    Columns, Decimal, Format, ListOptions, NamedGraph, ReadError, ReadOptions, read_graphs,
 };
 use viewcert_report::counted;
 use viewcert_report::json::write_failed;
@@ -107,53 +106,9 @@ impl InputArguments {
         for_each_read(session, &read, (paths, json), too_many, out, each)
     }
 
-    /// How cameras and points are read.
-    pub(super) fn of_tracks(&self) -> ReadOptions {
-        let default = TrackOptions::default();
-        ReadOptions {
-            tracks: Some(TrackOptions {
-                min_views: self.min_views.unwrap_or(default.min_views),
-                max_spread: self.max_spread.unwrap_or(default.max_spread),
-                rigs: !self.no_rigs,
-            }),
-            ..self.read_options()
-        }
-    }
-
-    /// How pairs are read.
-    ///
-    /// # Errors
-    /// An option that is about tracks.
-    pub(super) fn of_pairs(&self) -> Result<ReadOptions> {
-        if let Some(option) = self.of_tracks_alone() {
-            bail!(
-                "{option} says how tracks count, and pairs are decided here; leave it out, or say --tracks where \
-                 it can be said"
-            );
-        }
-        Ok(self.read_options())
-    }
-
-    /// The first option that is about tracks alone, if one is given.
-    pub(super) fn of_tracks_alone(&self) -> Option<&'static str> {
-        of_tracks_alone(
-            self.min_views.is_some(),
-            self.max_spread.is_some(),
-            self.no_rigs,
-        )
-    }
-
-    /// Whether any option is given.
-    pub(super) fn says_anything(&self) -> bool {
-        let list = self.columns.is_some() || self.min_weight.is_some() || self.skip_loops;
-        let file = self.format.is_some() || self.variable.is_some();
-        let database = self.pipeline.is_some() || self.min_inliers.is_some();
-        list || file || database || self.of_tracks_alone().is_some()
-    }
-
-    /// The options of the readers, but for tracks.
-    pub(super) fn read_options(&self) -> ReadOptions {
-        ReadOptions {
+    /// How inputs are read, as pairs and as tracks.
+    pub(super) fn reading(&self) -> HowRead {
+        let pairs = ReadOptions {
             format: self.format,
             variable: self.variable.clone(),
             pipeline: self.pipeline.map(|pipeline| match pipeline {
@@ -168,19 +123,37 @@ impl InputArguments {
                 skip_loops: self.skip_loops,
             },
             only: None,
+        };
+        let of_tracks = (self.min_views, self.max_spread, !self.no_rigs);
+        HowRead::new(
+            pairs,
+            of_tracks,
+            ["--min-views", "--max-spread", "--no-rigs"],
+        )
+    }
+
+    /// How pairs are read.
+    ///
+    /// # Errors
+    /// An option that is about tracks.
+    pub(super) fn of_pairs(&self) -> Result<ReadOptions> {
+        let reading = self.reading();
+        match reading.of_tracks_alone {
+            None => Ok(reading.pairs),
+            Some(option) => bail!(
+                "{option} says how tracks count, and pairs are decided here; leave it out, or say --tracks where \
+                 it can be said"
+            ),
         }
     }
-}
 
-/// The first of these options that is given: they are about tracks alone.
-fn of_tracks_alone(min_views: bool, max_spread: bool, no_rigs: bool) -> Option<&'static str> {
-    let given = [
-        ("--min-views", min_views),
-        ("--max-spread", max_spread),
-        ("--no-rigs", no_rigs),
-    ];
-    let given = given.into_iter().find(|(_, is_given)| *is_given);
-    given.map(|(option, _)| option)
+    /// Whether any option is given.
+    pub(super) fn says_anything(&self) -> bool {
+        let list = self.columns.is_some() || self.min_weight.is_some() || self.skip_loops;
+        let file = self.format.is_some() || self.variable.is_some();
+        let database = self.pipeline.is_some() || self.min_inliers.is_some();
+        list || file || database || self.reading().of_tracks_alone.is_some()
+    }
 }
 
 /// How graphs are read with these options.

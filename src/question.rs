@@ -82,7 +82,7 @@ impl QuestionArguments {
             None => Model::Projective,
         };
         let read = match tracks {
-            true => self.input.of_tracks(),
+            true => self.input.reading().tracks,
             false => self.input.of_pairs()?,
         };
         let mut plan = Plan::new(graphs, read, model, self.seed);

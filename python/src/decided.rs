@@ -16,14 +16,11 @@ use viewcert::intrinsics::{Certified, Class, Metric, Sensors};
 use viewcert::linalg::prime::PrimeField;
 use viewcert::watch::Watch;
 use viewcert::{Arithmetic, CountSolutions, Known, Model, Options, Prime, Verdict};
-use viewcert_advice::priors::Priors;
 use viewcert_advice::{Request, Weak};
 use viewcert_formats::{NamedGraph, NamedParts, given, with_rigs};
 use viewcert_report::Report;
 use viewcert_report::assumptions::{self, BaseLines, Scope};
-use viewcert_report::intrinsics::IntrinsicsLine;
 use viewcert_report::own_frame;
-use viewcert_report::priors::PriorsLine;
 use viewcert_report::scene::Scene;
 use viewcert_session::Outputs;
 
@@ -475,16 +472,11 @@ impl Decided {
             let mut scope = Scope::new(&input, &verdict, asked, &stop)?;
             if let Some(sensors) = sensors {
                 let found = Metric::with_sensors(&input.graph, &verdict, &sensors, seed, &stop)?;
-                let line = IntrinsicsLine::new(&input, &sensors, &found, list_components);
-                let mut line = assumptions::out_of_planes(line, &input.graph, &verdict, &stop)?;
                 // Cameras to calibrate are suggested then, not images to match.
-                if let Some(most) = request.suggest.take() {
-                    let priors =
-                        Priors::new(&input.graph, &verdict, &sensors, &found, seed, &stop)?;
-                    let most = most as usize;
-                    let priors = PriorsLine::new(&input, &sensors, &found, &priors, most);
-                    line = line.with_priors(priors);
-                }
+                let priors = request.suggest.take().map(|most| (most, seed));
+                let (answer, found) = ((&*input, &*verdict), (&sensors, &found));
+                let line =
+                    assumptions::of_intrinsics(answer, found, list_components, priors, &stop)?;
                 scope = scope.with_intrinsics(line);
             }
             let verdict = &*scope.held(&input, &verdict);

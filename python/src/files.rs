@@ -33,12 +33,7 @@ pub(crate) fn overview<'py>(
     reading: Reading,
     kind: String,
 ) -> PyResult<Bound<'py, PyBytes>> {
-    let [options, of_tracks] = reading.options()?;
-    let wish = viewcert_ask::overview::Asked {
-        options,
-        of_tracks,
-        of_tracks_alone: reading.of_tracks_alone(),
-    };
+    let wish = viewcert_ask::overview::Asked(reading.options()?);
     let found = asked(py, move |session| {
         wish.of(session, &path, |found| {
             let mut out = Vec::new();
@@ -61,15 +56,12 @@ pub(crate) fn lists(
     files: Vec<PathBuf>,
     reading: Reading,
 ) -> PyResult<Said> {
-    let [options, of_tracks] = reading.options()?;
-    let of_tracks_alone = reading.of_tracks_alone();
+    let reading = reading.options()?;
     asked(py, move |session| {
         let wish = viewcert_ask::lists::Asked {
             graph: &graph,
             files: &files,
-            options,
-            of_tracks,
-            of_tracks_alone,
+            reading,
         };
         wish.of(session, |report| {
             said(|out| report.write_json(out), |out| report.write(out))
@@ -86,7 +78,7 @@ pub(crate) fn merge(
     database: Option<PathBuf>,
     reading: Reading,
 ) -> PyResult<Said> {
-    let [_, options] = reading.options()?;
+    let options = reading.options()?.tracks;
     asked(py, move |session| {
         let wish = viewcert_ask::merge::Asked {
             models: [&one, &other],

@@ -10,8 +10,9 @@ use std::str::FromStr;
 use std::sync::Arc;
 use viewcert::certificate::hex;
 use viewcert::graph::{Labels, sha256};
+use viewcert_ask::HowRead;
 use viewcert_formats::colmap::Pipeline;
-use viewcert_formats::{ListOptions, NamedGraph, ReadOptions, TrackOptions, pairs, read_graphs};
+use viewcert_formats::{ListOptions, NamedGraph, ReadOptions, pairs, read_graphs};
 use viewcert_report::scene::Scene;
 
 /// A graph with its labels and notes.
@@ -185,31 +186,18 @@ pub(crate) struct Reading {
 }
 
 impl Reading {
-    /// The first option that is about tracks alone, if one is given.
-    pub(crate) fn of_tracks_alone(&self) -> Option<&'static str> {
-        let given = [
-            ("min_views", self.min_views.is_some()),
-            ("max_spread", self.max_spread.is_some()),
-            ("rigs", !self.rigs),
-        ];
-        let given = given.into_iter().find(|(_, is_given)| *is_given);
-        given.map(|(option, _)| option)
-    }
-
-    /// The options for pairs, and for tracks.
+    /// How pairs and tracks are read.
     ///
     /// # Errors
     /// A word that is none of those that can be said.
-    pub(crate) fn options(&self) -> PyResult<[ReadOptions; 2]> {
-        let pipeline = match self.pipeline.as_deref() {
-            None => None,
-            Some("global") => Some(Pipeline::Global),
-            Some(_) => Some(Pipeline::Incremental),
-        };
+    pub(crate) fn options(&self) -> PyResult<HowRead> {
         let pairs = ReadOptions {
             format: parsed("format", self.format.as_deref())?,
             variable: self.variable.clone(),
-            pipeline,
+            pipeline: self.pipeline.as_deref().map(|name| match name {
+                "global" => Pipeline::Global,
+                _ => Pipeline::Incremental,
+            }),
             min_inliers: self.min_inliers,
             tracks: None,
             list: ListOptions {
@@ -219,17 +207,12 @@ impl Reading {
             },
             only: None,
         };
-        let default = TrackOptions::default();
-        let tracks = TrackOptions {
-            min_views: self.min_views.unwrap_or(default.min_views),
-            max_spread: self.max_spread.unwrap_or(default.max_spread),
-            rigs: self.rigs,
-        };
-        let tracks = ReadOptions {
-            tracks: Some(tracks),
-            ..pairs.clone()
-        };
-        Ok([pairs, tracks])
+        let of_tracks = (self.min_views, self.max_spread, self.rigs);
+        Ok(HowRead::new(
+            pairs,
+            of_tracks,
+            ["min_views", "max_spread", "rigs"],
+        ))
     }
 }
 
@@ -251,8 +234,12 @@ pub(crate) fn read(
     tracks: bool,
     reading: Reading,
 ) -> PyResult<Vec<Graph>> {
-    let [of_pairs, of_tracks] = reading.options()?;
-    let options = if tracks { of_tracks } else { of_pairs };
+    let reading = reading.options()?;
+    let options = if tracks {
+        reading.tracks
+    } else {
+        reading.pairs
+    };
     let shown = path.display().to_string();
     let called = |mut graph: NamedGraph| {
         if let Some(name) = &name {

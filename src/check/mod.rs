@@ -184,7 +184,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<u8> {
         "only one of certificate, graph and what is given can be standard input"
     );
     let options = || match arguments.tracks {
-        true => Ok(arguments.input.of_tracks()),
+        true => Ok(arguments.input.reading().tracks),
         false => arguments.input.of_pairs(),
     };
     let from = arguments.intrinsics.clone().map(IntrinsicsFrom::from);

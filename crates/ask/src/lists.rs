@@ -1,6 +1,6 @@
 //! Whether lists of images are whole, and what their overlaps fix.
 
-use super::ensure_not_of_tracks;
+use super::HowRead;
 use anyhow::{Context, Result, bail, ensure};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -21,12 +21,8 @@ pub struct Asked<'a> {
     pub graph: &'a Path,
     /// The lists.
     pub files: &'a [PathBuf],
-    /// How pairs are read.
-    pub options: ReadOptions,
-    /// How the tracks of a list are read.
-    pub of_tracks: ReadOptions,
-    /// An option that is about tracks alone, if one is given.
-    pub of_tracks_alone: Option<&'static str>,
+    /// How the graph, and the tracks of a list, are read.
+    pub reading: HowRead,
 }
 
 impl Asked<'_> {
@@ -42,13 +38,13 @@ impl Asked<'_> {
     ) -> Result<T> {
         let start = Instant::now();
         session.reading(self.graph);
-        let mut input = first(self.graph, &self.options)?;
+        let mut input = first(self.graph, &self.reading.pairs)?;
         session.hide();
         let by_tracks = input.database.is_some();
         if by_tracks {
-            input.read.options = self.of_tracks.given();
+            input.read.options = self.reading.tracks.given();
         } else {
-            ensure_not_of_tracks(self.of_tracks_alone, self.graph)?;
+            self.reading.ensure_pairs(self.graph)?;
         }
         let files = self.files.iter();
         let found = files.map(|file| list(session, self, &input, file));
@@ -124,7 +120,7 @@ fn of_database(
     let label = |v: u32| input.labels.label(v).into_owned();
     let options = ReadOptions {
         only: Some(Arc::new(images.iter().map(|&v| label(v)).collect())),
-        ..asked.of_tracks.clone()
+        ..asked.reading.tracks.clone()
     };
     let database = open_database(asked.graph, &options);
     let database = database.context("the database is there no more")??;

@@ -6,7 +6,7 @@
 //! kept waiting while something is decided.
 
 use super::contradictions::ANGLE;
-use super::{Input, Inputs, ensure_not_of_tracks};
+use super::{HowRead, Input, Inputs};
 use anyhow::{Context, Result, bail, ensure};
 use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
@@ -21,11 +21,9 @@ use viewcert_advice::export::shell;
 use viewcert_advice::{Advice, Request, Tracks, foreseen};
 use viewcert_formats::colmap::{Database, is_database};
 use viewcert_formats::error::{Kind, Problem, ReadError};
-use viewcert_formats::{
-    NamedGraph, ReadOptions, intrinsics, open_database, read_graphs, with_rigs,
-};
+use viewcert_formats::{NamedGraph, intrinsics, open_database, read_graphs, with_rigs};
 use viewcert_report::Report;
-use viewcert_report::assumptions::{self, Scope, out_of_planes};
+use viewcert_report::assumptions::{self, Scope, of_intrinsics};
 use viewcert_report::contradictions::Contradicted;
 use viewcert_report::database::other_mapper;
 use viewcert_report::intrinsics::IntrinsicsLine;
@@ -34,14 +32,10 @@ use viewcert_report::overview::{Next, Overview, Wanted};
 use viewcert_session::Session;
 
 /// What is asked of inputs, whoever asks.
-pub struct Asked {
-    /// How pairs are read.
-    pub options: ReadOptions,
-    /// How cameras and points are read.
-    pub of_tracks: ReadOptions,
-    /// An option that is about tracks alone, if one is given.
-    pub of_tracks_alone: Option<&'static str>,
-}
+pub struct Asked(
+    /// How inputs are read.
+    pub HowRead,
+);
 
 impl Asked {
     /// Decides everything about an input, and calls `say` with what was found. A file with several graphs is
@@ -78,13 +72,13 @@ impl Asked {
     /// The pairs of every graph of a file, and the database that they are of.
     #[must_use]
     pub fn inputs(&self, path: &Path) -> Inputs {
-        match open_database(path, &self.options) {
+        match open_database(path, &self.0.pairs) {
             Some(database) => {
                 let opened = database.map(|database| (database.pairs(), Some(database)));
                 Box::new(std::iter::once(opened))
             }
             None => {
-                let graphs = read_graphs(path, &self.options);
+                let graphs = read_graphs(path, &self.0.pairs);
                 Box::new(graphs.map(|graph| graph.map(|graph| (graph, None))))
             }
         }
@@ -173,7 +167,7 @@ fn source(
         Some(database) => read_tracks(session, asked, path, database)?,
     };
     if tracks.is_err() {
-        ensure_not_of_tracks(asked.of_tracks_alone, path)?;
+        asked.0.ensure_pairs(path)?;
     }
     Ok(Source {
         pairs: Some(pairs),
@@ -187,7 +181,7 @@ fn source(
 /// The cameras and points of a model, or of another file that has no more.
 fn tracks_in(session: &Session, asked: &Asked, path: &Path) -> Result<NamedGraph> {
     session.reading(path);
-    let tracks = read_graphs(path, &asked.of_tracks).next();
+    let tracks = read_graphs(path, &asked.0.tracks).next();
     session.hide();
     Ok(tracks.with_context(|| format!("{}: no graph", path.display()))??)
 }
@@ -222,7 +216,7 @@ fn read_tracks(
     path: &Path,
     database: &Database,
 ) -> Result<Result<NamedGraph, String>> {
-    let options = asked.of_tracks.tracks.unwrap_or_default();
+    let options = asked.0.tracks.tracks.unwrap_or_default();
     session.reading(path);
     let tracks = database.tracks(options);
     session.hide();
@@ -306,7 +300,7 @@ fn overview<T>(
     let of_tracks = tracks.map(|(input, verdict)| Tracks {
         input,
         verdict,
-        options: wish.of_tracks.tracks.unwrap_or_default(),
+        options: wish.0.tracks.tracks.unwrap_or_default(),
     });
     let forecast = session.watched(|watch| foreseen(database, images, of_tracks, watch.clone()));
     let (mappers, narrow) = forecast?;
@@ -372,8 +366,8 @@ fn overview<T>(
     let file = File {
         path: &source.path.display().to_string(),
         options: match found.tracks {
-            Some(_) => &wish.of_tracks,
-            None => &wish.options,
+            Some(_) => &wish.0.tracks,
+            None => &wish.0.pairs,
         },
         is_model: source.path.is_dir(),
     };
@@ -417,9 +411,10 @@ fn intrinsics_of_database(
         Err(error) => return Ok(Err(error.problem.to_string())),
     };
     let seed = Options::default().seed;
-    let metric =
-        session.watched(|watch| Metric::with_sensors(&input.graph, verdict, &found, seed, watch));
-    let line = IntrinsicsLine::new(input, &found, &metric?, false);
-    let line = session.watched(|watch| out_of_planes(line, &input.graph, verdict, watch));
+    let line = session.watched(|watch| -> Result<_> {
+        let metric = Metric::with_sensors(&input.graph, verdict, &found, seed, watch)?;
+        let line = of_intrinsics((input, verdict), (&found, &metric), false, None, watch);
+        Ok(line?)
+    });
     Ok(Ok(line?))
 }

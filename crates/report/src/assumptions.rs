@@ -5,6 +5,7 @@
 use crate::condition;
 use crate::intrinsics::IntrinsicsLine;
 use crate::own_frame::{self, OwnFrameLine};
+use crate::priors::PriorsLine;
 use serde::Serialize;
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -12,8 +13,10 @@ use viewcert::contract::Merge;
 use viewcert::decide::{Options, SharedBaseLines, Turns, Value, Verdict, rank_in_plane};
 use viewcert::geometry::model::Model;
 use viewcert::graph::{Graph, UnionFind};
+use viewcert::intrinsics::{Metric, Sensors};
 use viewcert::watch::{Stopped, Watch};
 use viewcert::wording::counted;
+use viewcert_advice::priors::Priors;
 use viewcert_formats::NamedGraph;
 
 /// What known displacements rest on.
@@ -312,25 +315,37 @@ fn is_rigid_by_triangles(verdict: &Verdict) -> bool {
 }
 
 /// An answer on intrinsics, under the condition that centres are not all in one plane where calibrated cameras
-/// are lost there, as far as that is looked at unasked.
+/// are lost there, as far as that is looked at unasked; with priors, so many at most, if a number is given with a seed.
 ///
 /// # Errors
 /// If the work was stopped.
-pub fn out_of_planes(
-    line: IntrinsicsLine,
-    graph: &Graph,
-    verdict: &Verdict,
+pub fn of_intrinsics(
+    (input, verdict): (&NamedGraph, &Verdict),
+    (sensors, found): (&Sensors, &Metric),
+    list_components: bool,
+    priors: Option<(u32, u64)>,
     watch: &Watch,
 ) -> Result<IntrinsicsLine, Stopped> {
+    let graph = &input.graph;
+    let mut line = IntrinsicsLine::new(input, sensors, found, list_components);
     let is_asked = line.is_metric() && graph.edges().len() <= UNASKED;
-    if !is_asked || is_rigid_by_triangles(verdict) {
-        return Ok(line);
+    if is_asked
+        && !is_rigid_by_triangles(verdict)
+        && !Planar::new(graph, verdict, Model::Calibrated, watch)?.is_determined()
+    {
+        line = line.under(NO_PLANE);
     }
-    let planar = Planar::new(graph, verdict, Model::Calibrated, watch)?;
-    Ok(match planar.is_determined() {
-        true => line,
-        false => line.under(NO_PLANE),
-    })
+    if let Some((most, seed)) = priors {
+        let priors = Priors::new(graph, verdict, sensors, found, seed, watch)?;
+        line = line.with_priors(PriorsLine::new(
+            input,
+            sensors,
+            found,
+            &priors,
+            most as usize,
+        ));
+    }
+    Ok(line)
 }
 
 /// Up to this many pairs centres in one plane are looked at unasked: the time of a pebble game grows

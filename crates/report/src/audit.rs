@@ -5,9 +5,10 @@ use super::{at_cameras, counted, head, text};
 use serde_json::json;
 use std::io::{self, Write};
 use std::time::Duration;
+use viewcert::Model;
 use viewcert::at_cameras::Here;
 use viewcert::certificate::hex;
-use viewcert::decide::Verdict;
+use viewcert::decide::{Strength, Verdict};
 use viewcert::wording::printable;
 use viewcert_audit::claims::{Claim, Ruling};
 use viewcert_audit::enclosure::{Enclosure, Matrix};
@@ -169,22 +170,27 @@ impl Ruled<'_> {
         }
     }
 
+    /// The model, the strength, and the numbers of components, the rank and what it has to be.
+    fn is(&self) -> (Model, Strength, [usize; 3]) {
+        match self.found {
+            Found::Generic(exact) => {
+                let counts = [exact.components.len(), exact.rank, exact.required];
+                (exact.model, exact.value_claim().strength, counts)
+            }
+            Found::AtCameras(here, _) => {
+                let counts = [here.components.value.len(), here.rank.value, here.required];
+                (here.model, here.rank.strength, counts)
+            }
+        }
+    }
+
     fn write_text(&self, out: &mut impl Write) -> io::Result<()> {
         let (graph, row) = (&self.input.graph, self.row);
         let name = row.and_then(|(_, claim, _)| claim.name.as_deref());
-        let (name, is, strength, [parts, rank, required]) = match self.found {
-            Found::Generic(exact) => (
-                Some(&*self.input.name),
-                exact.value.name().to_owned(),
-                exact.value_claim().strength,
-                [exact.components.len(), exact.rank, exact.required],
-            ),
-            Found::AtCameras(here, _) => (
-                name,
-                at_cameras::answer(here, graph, None),
-                here.rank.strength,
-                [here.components.value.len(), here.rank.value, here.required],
-            ),
+        let (_, strength, [parts, rank, required]) = self.is();
+        let (name, is) = match self.found {
+            Found::Generic(exact) => (Some(&*self.input.name), exact.value.name().to_owned()),
+            Found::AtCameras(here, _) => (name, at_cameras::answer(here, graph, None)),
         };
         let ruling = row.map(|(_, _, ruling)| ruling.said());
         match (row, ruling) {
@@ -212,7 +218,7 @@ impl Ruled<'_> {
     }
 
     fn write_json(&self, out: &mut impl Write) -> io::Result<()> {
-        let row = self.row;
+        let (row, (model, strength, [components, rank, required])) = (self.row, self.is());
         let line = json!({
             "row": row.map(|(row, ..)| row),
             "line": row.map(|(_, claim, _)| claim.line),
@@ -222,18 +228,15 @@ impl Ruled<'_> {
             "graph": GraphLine::of(self.input),
             "read": self.input.read,
             "notes": self.input.notes,
+            "model": model.name(),
+            "strength": strength.name(),
+            "components": components,
+            "rank": rank,
+            "rank_required": required,
         });
         let (found, seed) = match self.found {
             Found::Generic(exact) => {
-                let found = json!({
-                    "model": exact.model.name(),
-                    "verdict": exact.value.name(),
-                    "strength": exact.value_claim().strength.name(),
-                    "components": exact.components.len(),
-                    "rank": exact.rank,
-                    "rank_required": exact.required,
-                    "prime": exact.prime(),
-                });
+                let found = json!({ "verdict": exact.value.name(), "prime": exact.prime() });
                 (found, Some(exact.seed))
             }
             Found::AtCameras(here, sigma) => {
@@ -243,13 +246,8 @@ impl Ruled<'_> {
                     json!({ "matrix": matrix.name(), "place": place, "least": least, "most": most })
                 });
                 let found = json!({
-                    "model": here.model.name(),
                     "verdict": if here.is_determined() { "determined" } else { "not-determined" },
-                    "strength": here.rank.strength.name(),
-                    "error_log2": here.rank.strength.error_log2(),
-                    "components": here.components.value.len(),
-                    "rank": here.rank.value,
-                    "rank_required": here.required,
+                    "error_log2": strength.error_log2(),
                     "sigma": sigma,
                     "centres_sha256": hex(&here.sha256),
                 });
