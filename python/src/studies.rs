@@ -4,10 +4,9 @@
 
 use crate::at_cameras::AtCameras;
 use crate::decided::{Decided, Wanted};
-use crate::errors::{InputError, TooLarge, of_any};
+use crate::errors::{InputError, of_any};
 use crate::graph::Graph;
 use crate::work::{self, Job};
-use anyhow::anyhow;
 use pyo3::prelude::*;
 use std::sync::Arc;
 use std::time::Instant;
@@ -17,6 +16,7 @@ use viewcert_audit::enclosure::{Matrix, SigmaError, enclose};
 use viewcert_audit::table::{BadRow, Row};
 use viewcert_audit::{Beside, Options as FloatOptions, claims};
 use viewcert_report::audit::{Audit, Found, Ruled};
+use viewcert_session::exit::TooLarge;
 
 /// What is said for programs, as JSON, and for people.
 pub(crate) type Said = (String, String);
@@ -159,18 +159,19 @@ pub(crate) fn singular_value(
     let stop = job.watch();
     let work = move || {
         let at = (&*centres, &*here);
-        enclose(matrix, &input.graph, at, (norm.as_ref(), None), &stop)
+        let found = enclose(matrix, &input.graph, at, (norm.as_ref(), None), &stop);
+        found.map_err(not_enclosed)
     };
-    let found = job.run(py, work)?;
-    let found = found.map_err(of_sigma)?;
+    let found = job.answer(py, work)?;
     Ok(([found.least.to_string(), found.most.to_string()], place))
 }
 
-fn of_sigma(error: SigmaError) -> PyErr {
+/// Why a singular value is not enclosed.
+fn not_enclosed(error: SigmaError) -> anyhow::Error {
     match error {
-        SigmaError::TooLarge { .. } => TooLarge::new_err(error.to_string()),
-        SigmaError::Stopped(stopped) => of_any(&stopped.into()),
-        error => InputError::new_err(error.to_string()),
+        SigmaError::TooLarge { .. } => TooLarge(error.to_string()).into(),
+        SigmaError::Stopped(stopped) => stopped.into(),
+        error => error.into(),
     }
 }
 
@@ -194,21 +195,15 @@ pub(crate) fn audit_at_cameras(py: Python<'_>, at: &AtCameras, table: &str) -> P
     let work = move || {
         let each = (1..).zip(&rows).map(|(number, claim)| {
             let at = (&*centres, &*here);
-            let (ruling, sigma) = ruled(claim, &input.graph, at, &stop)?;
+            let (ruling, sigma) = ruled(claim, &input.graph, at, &stop).map_err(not_enclosed)?;
             let ruled = Ruled {
                 row: Some((number, &claim.claim, &ruling)),
                 input: &input,
                 found: Found::AtCameras(&here, sigma.as_ref()),
             };
-            Ok(said(
-                |out| ruled.write(out, true),
-                |out| ruled.write(out, false),
-            ))
+            said(|out| ruled.write(out, true), |out| ruled.write(out, false))
         });
-        each.collect::<Result<Vec<_>, SigmaError>>()
+        each.collect::<anyhow::Result<Vec<_>>>()
     };
-    let found = job.run(py, work)?;
-    let found = found.map_err(of_sigma)?.into_iter();
-    let found: anyhow::Result<Vec<Said>> = found.collect();
-    found.map_err(|error| of_any(&anyhow!("{error:#}")))
+    job.answer(py, work)
 }

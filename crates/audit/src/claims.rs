@@ -103,31 +103,28 @@ impl Claim {
     /// Refuses to rule where neither this nor the cell of another column, if it has one, claims anything.
     pub(crate) fn ensure_some(&self, (column, has): (&str, bool)) -> Result<(), BadRow> {
         let is_some = self.verdict.is_some() || self.rank.is_some() || !self.components.is_empty();
-        match is_some || has {
-            true => Ok(()),
-            false => Err(BadRow(format!(
-                "nothing is claimed: one of the columns verdict, rank, components, {column} is needed"
-            ))),
-        }
+        let columns = format!("verdict, rank, components, {column}");
+        let why = || {
+            BadRow(format!(
+                "nothing is claimed: one of the columns {columns} is needed"
+            ))
+        };
+        (is_some || has).then_some(()).ok_or_else(why)
     }
 
     /// What is not so of the counts.
     pub(crate) fn wrong(&self, rank: usize, required: usize, components: usize) -> Vec<String> {
-        let counts = self
-            .components
-            .iter()
-            .map(|&count| ("components", count, components));
+        let counts = self.components.iter();
+        let counts = counts.map(|&count| ("components", Some(count), components));
         let ranks = [
             ("rank", self.rank, rank),
             ("rank_required", self.required, required),
         ];
-        let ranks = ranks
-            .into_iter()
-            .filter_map(|(what, claimed, is)| Some((what, claimed?, is)));
-        let wrong = counts.chain(ranks).filter(|(_, claimed, is)| claimed != is);
-        wrong
-            .map(|(what, claimed, is)| format!("claimed {what} {claimed}, is {is}"))
-            .collect()
+        let wrong = counts.chain(ranks).filter_map(|(what, claimed, is)| {
+            let claimed = claimed.filter(|&claimed| claimed != is)?;
+            Some(format!("claimed {what} {claimed}, is {is}"))
+        });
+        wrong.collect()
     }
 }
 

@@ -61,16 +61,12 @@ pub(crate) fn read(text: &str, known: &str, silent: &str) -> Result<Vec<Row>, Ta
     };
     for (k, column) in head.iter().enumerate() {
         if !is(column, known) && !is(column, silent) {
-            let names: Vec<&str> = known
-                .split_whitespace()
-                .filter(|name| !name.ends_with('_'))
-                .collect();
-            let names = names.join(", ");
+            let names = known.split_whitespace().filter(|name| !name.ends_with('_'));
+            let names = names.collect::<Vec<_>>().join(", ");
+            let hint = format!("known are {names}; correct it, or leave it out");
             return Err(refused(
                 *number,
-                format!(
-                    "unknown column {column:?}; known are {names}; correct it, or leave it out"
-                ),
+                format!("unknown column {column:?}; {hint}"),
             ));
         }
         if head[..k].contains(column) {
@@ -81,10 +77,8 @@ pub(crate) fn read(text: &str, known: &str, silent: &str) -> Result<Vec<Row>, Ta
         }
     }
     if rows.is_empty() {
-        return Err(refused(
-            1,
-            "the table has no rows, and so claims nothing".to_owned(),
-        ));
+        let why = "the table has no rows, and so claims nothing";
+        return Err(refused(1, why.to_owned()));
     }
     let row = |(line, cells): &(usize, csv::StringRecord)| {
         if cells.len() != head.len() {
