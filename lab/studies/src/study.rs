@@ -1,7 +1,7 @@
 //! Many draws: how often a tolerance misjudges.
 
-use crate::formulation::augmented::augmented_size;
 use crate::dense::{Columns, least_eigenvalue, singular};
+use crate::formulation::augmented::augmented_size;
 use rayon::prelude::*;
 use std::fmt;
 use std::ops::Range;
