@@ -190,6 +190,7 @@ fn of_kernel(
             reason,
             stage,
             percent: None,
+            so_far: None,
         }));
     }
     let may_contract = may_contract(nodes, edges);

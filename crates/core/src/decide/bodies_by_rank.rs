@@ -50,14 +50,17 @@ pub(super) fn extend(
         && asked.arithmetic == Arithmetic::Prime
         && asked.solutions != CountSolutions::Full;
     let mut size = REGION;
-    while is_wanted && size <= LARGEST_REGION && may_be_large(&contraction) {
+    while is_wanted && size <= 2 * LARGEST_REGION && may_be_large(&contraction) {
         let assembly = Assembly::new(graph, &contraction);
         let large = large_pieces(&assembly);
         if large.iter().all(|(_, core)| core.nodes.len() < 2 * size) {
             break;
         }
         let search = Search::new(&assembly, sha256, options);
-        let regions = regions(graph, &contraction, &large, size);
+        let regions = match size {
+            0..=LARGEST_REGION => regions(graph, &contraction, &large, size),
+            _ => dense_region(graph, &contraction, &large),
+        };
         let found = search.all_rigid_parts(&regions, &|ranks| Ok(Some(ranks.evidence())))?;
         let (unions, bounds): (Vec<_>, Vec<_>) = found.into_iter().unzip();
         if unions.is_empty() {
@@ -104,17 +107,45 @@ pub(super) fn regions(
         in_core[v as usize] = true;
     }
     let (region_of, count) = partition(graph, &in_core, size);
+    let region_of: Vec<Option<u32>> = region_of.into_iter().map(Some).collect();
+    members_of(contraction, pieces, &in_core, &region_of, count)
+}
+
+/// One region that is dense, if there is one, of the largest piece.
+pub(super) fn dense_region(
+    graph: &Graph,
+    contraction: &Contraction,
+    pieces: &[(Members, Core)],
+) -> Vec<Members> {
+    let largest = pieces.iter().max_by_key(|(_, core)| core.nodes.len());
+    let Some(inside) = largest.and_then(|(_, core)| dense::grow(graph, &core.nodes)) else {
+        return Vec::new();
+    };
+    let region_of: Vec<Option<u32>> = inside.iter().map(|&is| is.then_some(0)).collect();
+    members_of(contraction, pieces, &inside, &region_of, 1)
+}
+
+/// Members of pieces by the regions that nodes are in, if they are in any.
+fn members_of(
+    contraction: &Contraction,
+    pieces: &[(Members, Core)],
+    in_core: &[bool],
+    region_of: &[Option<u32>],
+    count: usize,
+) -> Vec<Members> {
     let mut regions = vec![Members::default(); count];
     for (members, _) in pieces {
         for &(i, j) in &members.edges {
-            if region_of[i as usize] == region_of[j as usize] {
-                regions[region_of[i as usize] as usize].edges.push((i, j));
+            if let Some(region) = region_of[i as usize]
+                && region_of[j as usize] == Some(region)
+            {
+                regions[region as usize].edges.push((i, j));
             }
         }
         for &body in &members.bodies {
             let nodes = contraction.bodies[body as usize].nodes.iter();
             let nodes = nodes.filter(|&&v| in_core[v as usize]);
-            let mut met: Vec<u32> = nodes.map(|&v| region_of[v as usize]).collect();
+            let mut met: Vec<u32> = nodes.filter_map(|&v| region_of[v as usize]).collect();
             met.sort_unstable();
             for same in met.chunk_by(|a, b| a == b).filter(|same| same.len() >= 2) {
                 regions[same[0] as usize].bodies.push(body);
@@ -228,5 +259,6 @@ impl<'a> Search<'a> {
     }
 }
 
+mod dense;
 #[cfg(test)]
 mod tests;

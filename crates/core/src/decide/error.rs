@@ -1,8 +1,9 @@
 //! Why there is no verdict.
 
+use crate::contract::Contraction;
 use crate::decide::question::Meaningless;
 use crate::geometry::draw::DrawError;
-use crate::watch::Stopped;
+use crate::watch::{SoFar, Stopped};
 use std::fmt;
 
 /// Why there is no verdict.
@@ -79,6 +80,20 @@ impl fmt::Display for VerdictError {
             ),
             Self::Stopped(inner) => inner.fmt(f),
         }
+    }
+}
+
+impl VerdictError {
+    /// With what a contraction had proved before work was stopped.
+    pub(super) fn after(mut self, contraction: &Contraction) -> Self {
+        if let Self::Stopped(stopped) = &mut self {
+            let finals = contraction.finals.iter();
+            let sizes = finals.map(|&body| contraction.bodies[body as usize].nodes.len());
+            let parts = sizes.clone().filter(|&size| size > 2).count();
+            let largest = sizes.max().unwrap_or(0);
+            stopped.so_far = Some(SoFar { parts, largest });
+        }
+        self
     }
 }
 

@@ -111,7 +111,9 @@ pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError>
     work.done(0)?;
     let whole = Whole::new(graph, &contraction, &sha256, options);
     if let Some(whole) = &whole
-        && let Some(rounds) = whole.first_rounds()?
+        && let Some(rounds) = whole
+            .first_rounds()
+            .map_err(|error| error.after(&contraction))?
     {
         return whole.conclude(rounds);
     }
@@ -128,10 +130,11 @@ pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError>
     };
     drop(work);
     let pieces = if model.in_plane() {
-        plane_piece::decide_all(&assembly, &pieces, &sha256, options)?
+        plane_piece::decide_all(&assembly, &pieces, &sha256, options)
     } else {
-        one_piece::decide_all(&assembly, &pieces, &sha256, options)?
+        one_piece::decide_all(&assembly, &pieces, &sha256, options)
     };
+    let pieces = pieces.map_err(|error| error.after(&contraction))?;
     let own_frame = match known {
         Known::OwnFrame { given, .. } if !given.is_empty() => Some(given.clone()),
         _ => None,

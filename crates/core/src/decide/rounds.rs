@@ -433,6 +433,10 @@ impl State {
             let cores: Vec<_> = cores.collect();
             let regions = bodies_by_rank::regions(&linked, &contraction, &cores, REGION);
             found = search.all_rigid_parts(&regions, read)?;
+            if found.is_empty() && self.shared.len() >= DEAR {
+                let dense = bodies_by_rank::dense_region(&linked, &contraction, &cores);
+                found = search.all_rigid_parts(&dense, read)?;
+            }
         }
         if found.is_empty() {
             found = search.all_rigid_parts(&pieces, read)?;

@@ -1,6 +1,7 @@
 //! What stops work, and why it was stopped.
 
 use super::progress::{Observer, Stage};
+use crate::wording::counted;
 use std::fmt;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU8, AtomicU64, Ordering};
@@ -38,6 +39,17 @@ pub struct Stopped {
     pub stage: Stage,
     /// How many hundredths of it were done, if that is known.
     pub percent: Option<u8>,
+    /// What was proved before.
+    pub so_far: Option<SoFar>,
+}
+
+/// What contraction and regions had proved before work was stopped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SoFar {
+    /// How many parts of three cameras and more are finite solvable, none inside of another.
+    pub parts: usize,
+    /// The cameras of the largest.
+    pub largest: usize,
 }
 
 impl std::error::Error for Stopped {}
@@ -47,11 +59,12 @@ impl fmt::Display for Stopped {
         match &self.reason {
             Reason::TooLarge { what, needs, limit } => {
                 let (needs, limit) = (Bytes(*needs), Bytes(*limit));
-                return write!(
+                write!(
                     f,
                     "{}: too large: {what} would take {needs} of memory, and the limit is {limit}",
                     self.stage
-                );
+                )?;
+                return self.write_so_far(f);
             }
             Reason::Interrupted => write!(f, "interrupted")?,
             Reason::Time => write!(f, "the time limit was reached")?,
@@ -61,9 +74,24 @@ impl fmt::Display for Stopped {
             }
         }
         write!(f, " at the {}", self.stage)?;
-        match self.percent {
-            Some(percent) => write!(f, ", {percent} % done"),
-            None => Ok(()),
+        if let Some(percent) = self.percent {
+            write!(f, ", {percent} % done")?;
+        }
+        self.write_so_far(f)
+    }
+}
+
+impl Stopped {
+    fn write_so_far(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self.so_far {
+            Some(SoFar { parts, largest }) if parts > 0 => {
+                let parts = counted(parts, "part");
+                write!(
+                    f,
+                    "; so far: {parts} of three cameras and more finite solvable (proved), the largest of {largest}"
+                )
+            }
+            _ => Ok(()),
         }
     }
 }

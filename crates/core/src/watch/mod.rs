@@ -28,7 +28,7 @@ mod limits;
 mod progress;
 mod task;
 
-pub use limits::{Bytes, Limits, Reason, Stopped, Watch};
+pub use limits::{Bytes, Limits, Reason, SoFar, Stopped, Watch};
 pub use progress::{Observer, Stage, Step};
 pub(crate) use task::{Reservation, matrix_bytes};
 pub use task::{Task, Work, unwatched};

@@ -116,6 +116,7 @@ impl<'w> Task<'w> {
             reason: self.watch.stopped().unwrap_or(Reason::Interrupted),
             stage: self.stage,
             percent,
+            so_far: None,
         }
     }
 }
@@ -213,6 +214,7 @@ impl Reservation {
                 },
                 stage: task.stage,
                 percent: None,
+                so_far: None,
             });
         }
         // Between the look and this another thread may have taken some; the account is for

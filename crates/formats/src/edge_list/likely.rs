@@ -8,7 +8,7 @@ use std::collections::HashSet;
 use super::names::{are_alike, is_image, shape};
 use crate::error::Problem;
 
-/// So many of the first pairs are looked at, in lists of any length.
+/// So many of the first pairs are looked at; where they leave a doubt, all.
 const MOST: usize = 1 << 16;
 
 const ONCE: &str = "as a table with a line for each thing has";
@@ -33,7 +33,16 @@ pub(super) struct List<'a> {
 impl List<'_> {
     /// What speaks against pairs of cameras.
     pub(super) fn doubt(&self) -> Option<Problem> {
-        let pairs = &self.pairs[..self.pairs.len().min(MOST)];
+        // The first pairs of a long list may have few cameras in common, as those of a random graph have.
+        let first = &self.pairs[..self.pairs.len().min(MOST)];
+        self.doubt_of(first)
+            .and_then(|doubt| match first.len() < self.pairs.len() {
+                true => self.doubt_of(self.pairs),
+                false => Some(doubt),
+            })
+    }
+
+    fn doubt_of(&self, pairs: &[(u32, u32)]) -> Option<Problem> {
         let Some(&(a, b)) = pairs.first() else {
             let only = Problem::table("all lines pair a label with itself: a table, perhaps");
             return Some(only).filter(|_| !self.loops.is_empty());

@@ -157,6 +157,18 @@ fn what_is_no_bare_list_is_refused() {
     assert_eq!(strict(again).unwrap().graph.edges().len(), 3);
 }
 
+/// A path of 70,000 cameras by its even pairs first: those have no camera in common.
+#[test]
+fn a_long_list_is_judged_as_a_whole() {
+    let even = (0..70_000).step_by(2).map(|i| (i + 1, i));
+    let pairs = even.chain((1..69_999).step_by(2).map(|i| (i, i + 1)));
+    let more = (0..70_000).map(|i| (i, (7919 * i + 13) % 70_000));
+    let lines = pairs.chain(more.filter(|(a, b)| a != b));
+    let text: String = lines.map(|(a, b)| format!("{a} {b}\n")).collect();
+    let read = listed(text.as_bytes(), Reading::default());
+    assert!(read.0.len() > 130_000);
+}
+
 #[test]
 fn heads() {
     for (text, taken, ignored) in [

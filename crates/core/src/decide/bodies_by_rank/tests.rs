@@ -129,6 +129,47 @@ fn small_cores_and_other_models_are_left_alone() {
     }
 }
 
+/// A random graph with six pairs at a node on average is locally a tree: nothing small in it is rigid, and a part of
+/// linear size is.
+#[test]
+fn a_dense_region_of_a_random_graph_is_rigid() {
+    let nodes = 3000u32;
+    let mut state = 1u64;
+    let mut drawn = || {
+        state = state
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        (state >> 33) as u32 % nodes
+    };
+    let mut pairs = std::collections::BTreeSet::new();
+    while pairs.len() < 3 * nodes as usize {
+        let (a, b) = (drawn(), drawn());
+        if a != b {
+            pairs.insert((a.min(b), a.max(b)));
+        }
+    }
+    let graph = Graph::new(nodes, pairs).unwrap();
+    let all: Vec<u32> = (0..nodes).collect();
+    let inside = dense::grow(&graph, &all).unwrap();
+    let is_inside = |&v: &u32| inside[v as usize];
+    let within = graph.edges().iter().copied();
+    let within: Vec<(u32, u32)> = within
+        .filter(|(i, j)| is_inside(i) && is_inside(j))
+        .collect();
+    let count = all.iter().filter(|v| is_inside(v)).count();
+    assert!(
+        2 * count < all.len() && 14 * within.len() >= 23 * count,
+        "{count} {}",
+        within.len()
+    );
+    let off = Question::with_solutions(CountSolutions::Off);
+    let part = Graph::new(nodes, within).unwrap();
+    let found = solve(&part, Options::default().question(off));
+    let largest = found.components.iter().map(|part| part.nodes().len()).max();
+    assert!(largest > Some(4 * count / 5), "{largest:?} of {count}");
+    assert!(dense::grow(&torus(17, 18, &[]), &[]).is_none());
+}
+
 /// The largest numbers of core nodes, and each node has its region.
 #[test]
 fn regions_hold_so_many_core_nodes() {
