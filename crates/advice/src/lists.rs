@@ -10,7 +10,7 @@
 
 use crate::condensation::chain;
 use crate::mapper::Foreseen;
-use anyhow::{Result, bail, ensure};
+use anyhow::{Result, ensure};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -37,10 +37,8 @@ impl List {
     /// A list whose components have these images, in any order; what has fewer than two images is
     /// no body.
     pub fn new(file: String, images: Vec<u32>, components: Vec<Vec<u32>>) -> Self {
-        let mut bodies: Vec<Vec<u32>> = components
-            .into_iter()
-            .filter(|body| body.len() > 1)
-            .collect();
+        let mut bodies = components;
+        bodies.retain(|body| body.len() > 1);
         bodies.sort_by_key(|body| std::cmp::Reverse(body.len()));
         Self {
             file,
@@ -53,13 +51,12 @@ impl List {
     /// The same list by what mappers will probably do: `name` says how its images are called.
     #[must_use]
     pub fn mapped(self, mappers: Foreseen, name: impl Fn(u32) -> String) -> Self {
-        let bodies = self.bodies.iter().flat_map(|body| {
+        let mut bodies = Vec::new();
+        for body in &self.bodies {
             let names: Vec<String> = body.iter().map(|&image| name(image)).collect();
-            let together = mappers.together(&names).into_iter();
             let images = |set: Vec<usize>| set.into_iter().map(|k| body[k]).collect();
-            together.map(images).collect::<Vec<Vec<u32>>>()
-        });
-        let bodies = bodies.collect();
+            bodies.extend(mappers.together(&names).into_iter().map(images));
+        }
         Self {
             mappers: Some(mappers),
             ..Self::new(self.file, self.images, bodies)
@@ -79,23 +76,19 @@ impl List {
 pub fn images(input: &NamedGraph, file: &Path) -> Result<Vec<u32>> {
     let text = whole::text(file)?;
     let all = 0..input.graph.nodes() as u32;
-    let nodes: BTreeMap<String, u32> = all
-        .map(|v| (input.labels.label(v).into_owned(), v))
-        .collect();
+    let nodes = all.map(|v| (input.labels.label(v).into_owned(), v));
+    let nodes: BTreeMap<String, u32> = nodes.collect();
     let mut images = BTreeSet::new();
     for (number, line) in (1..).zip(text.lines()) {
         let name = line.trim();
-        if name.is_empty() {
-            continue;
-        }
-        let Some(&node) = nodes.get(name) else {
-            bail!(
-                "{}:{number}: no image of {} is called {name}; leave it out, or extract and match it",
-                file.display(),
-                input.name
-            );
-        };
-        images.insert(node);
+        let node = nodes.get(name);
+        ensure!(
+            node.is_some() || name.is_empty(),
+            "{}:{number}: no image of {} is called {name}; leave it out, or extract and match it",
+            file.display(),
+            input.name
+        );
+        images.extend(node.filter(|_| !name.is_empty()));
     }
     ensure!(
         !images.is_empty(),
@@ -173,7 +166,7 @@ pub fn lists(
         let bodies = of.bodies.iter().enumerate();
         bodies.map(move |(part, body)| ([list + 1, part + 1], &body[..]))
     });
-    let bodies: Vec<([usize; 2], &[u32])> = bodies.collect();
+    let bodies: Vec<Body> = bodies.collect();
     let fixed = fixed(&bodies, images, seed, watch)?;
     let names = |some: &[u32]| some.iter().map(|&v| name(v)).collect::<Vec<String>>();
     let found = lists.iter().map(|list| {
@@ -190,20 +183,15 @@ pub fn lists(
     });
     let pairs = (0..lists.len()).flat_map(|b| (0..b).map(move |a| (a, b)));
     let overlaps = pairs.filter_map(|(a, b)| {
-        let other = &lists[b].images;
-        let common = lists[a].images.iter().copied();
-        let common = common.filter(|v| other.binary_search(v).is_ok());
-        let common: Vec<u32> = common.collect();
+        let mut common = lists[a].images.clone();
+        common.retain(|v| lists[b].images.binary_search(v).is_ok());
         (!common.is_empty()).then(|| Overlap {
             between: [a + 1, b + 1],
             images: names(&common),
         })
     });
-    let listed: BTreeSet<u32> = lists
-        .iter()
-        .flat_map(|list| &list.images)
-        .copied()
-        .collect();
+    let listed = lists.iter().flat_map(|list| &list.images);
+    let listed: BTreeSet<u32> = listed.copied().collect();
     let outside = (0..images).filter(|v| !listed.contains(v));
     let all_whole = lists.iter().all(List::is_whole);
     Ok(Lists {
@@ -215,13 +203,11 @@ pub fn lists(
     })
 }
 
+/// A body: its list and its part of it, both counted from 1, and its images.
+type Body<'a> = ([usize; 2], &'a [u32]);
+
 /// The bodies by the components of their union.
-fn fixed(
-    bodies: &[([usize; 2], &[u32])],
-    images: u32,
-    seed: u64,
-    watch: Watch,
-) -> Result<Vec<Fixed>> {
+fn fixed(bodies: &[Body], images: u32, seed: u64, watch: Watch) -> Result<Vec<Fixed>> {
     if bodies.is_empty() {
         return Ok(Vec::new());
     }
@@ -231,21 +217,17 @@ fn fixed(
     let graph = Graph::new(images, edges)?;
     let options = Options::default().question(Question::without_solutions(Model::Calibrated));
     let verdict = decide(&graph, &options.seed(seed).watch(watch))?;
-    let mut left: Vec<_> = bodies.iter().collect();
-    let mut fixed = Vec::new();
-    for component in &verdict.components {
-        let nodes = component.nodes();
+    let set = |nodes: &[u32]| {
         // An edge of a body is in one component, and the body with it.
         let holds = |body: &[u32]| body.iter().all(|v| nodes.binary_search(v).is_ok());
-        let (inside, others) = left.into_iter().partition(|(_, body)| holds(body));
-        left = others;
-        let inside: Vec<&([usize; 2], &[u32])> = inside;
-        fixed.push(Fixed {
-            parts: inside.iter().map(|(part, _)| *part).collect(),
+        let inside = bodies.iter().filter(|(_, body)| holds(body));
+        Fixed {
+            parts: inside.map(|(part, _)| *part).collect(),
             images: nodes.len(),
-        });
-    }
-    assert!(left.is_empty(), "every body lies in a component");
+        }
+    };
+    let components = verdict.components.iter();
+    let mut fixed: Vec<Fixed> = components.map(|part| set(&part.nodes())).collect();
     fixed.sort_by_key(|set| (std::cmp::Reverse(set.images), set.parts.clone()));
     Ok(fixed)
 }

@@ -57,12 +57,8 @@ pub struct Merge {
     pub shared_points: Option<usize>,
     /// How well both fit by what they share; null if they share too little to contradict each other.
     pub misfit: Option<Misfit>,
-    /// Whether something fixes the one against the other: rotation, translation and scale.
-    pub determined: bool,
     /// How many of the 7 degrees of freedom are left; null where tracks fix some of them.
     pub freedom: Option<usize>,
-    /// These in words.
-    pub free: &'static str,
     /// What it rests on.
     pub by: By,
     /// What COLMAP's `model_merger` does with both.
@@ -73,7 +69,23 @@ pub struct Merge {
 impl Merge {
     /// Whether the two can be made one: everything is determined, and nothing contradicts it.
     pub fn is_good(&self) -> bool {
-        self.determined && self.agree()
+        self.is_determined() && self.agree()
+    }
+
+    /// Whether something fixes the one against the other: rotation, translation and scale.
+    pub fn is_determined(&self) -> bool {
+        self.freedom == Some(0)
+    }
+
+    /// What is free, in words.
+    pub fn free(&self) -> &'static str {
+        match self.freedom {
+            Some(0) => "nothing",
+            Some(SCALE) => "relative scale",
+            Some(RIGID) => "rotation and translation",
+            Some(_) => "everything: rotation, translation and relative scale",
+            None => "translation and scale, or a part of them",
+        }
     }
 
     /// Whether nothing that was compared contradicts something else.
@@ -137,17 +149,16 @@ impl<'a> Two<'a> {
             let name = &*image.name;
             Some((name, [k, *places.get(name)?]))
         });
-        let mut two = Self {
+        let both: BTreeMap<&str, [usize; 2]> = both.collect();
+        let features = |model: &Model, k: usize| model.images[k].points.len();
+        let same_features = |&[a, b]: &[usize; 2]| features(one, a) == features(other, b);
+        Ok(Self {
             models: [one, other],
             views: [views(models[0])?, views(models[1])?],
             places: [points(models[0])?, points(models[1])?],
-            both: both.collect(),
-            same_features: true,
-        };
-        let same = |(_, [a, b]): (&str, [&Image; 2])| a.points.len() == b.points.len();
-        let same_features = two.images().all(same);
-        two.same_features = same_features;
-        Ok(two)
+            same_features: both.values().all(same_features),
+            both,
+        })
     }
 
     /// The images of both.
@@ -178,16 +189,13 @@ impl<'a> Two<'a> {
                     continue;
                 };
                 let count = image.points.len();
-                let features = known
-                    .features
-                    .filter(|&features| features as usize != count);
-                if let Some(features) = features.filter(|_| count > 0) {
-                    return Err(Error::msg(format!(
-                        "image {} has {count} features in a model and {features} in the database: the model is \
-                         of another database; name its own",
-                        image.name
-                    )));
-                }
+                let features = known.features.map_or(count, |features| features as usize);
+                ensure!(
+                    count == 0 || features == count,
+                    "image {} has {count} features in a model and {features} in the database: the model is of \
+                     another database; name its own",
+                    image.name
+                );
                 let seen = image.points.iter().zip(&known.tracks);
                 for (point, track) in seen.filter_map(|(point, track)| (*point).zip(*track)) {
                     of_tracks.entry(track).or_default().insert(point);
@@ -195,14 +203,13 @@ impl<'a> Two<'a> {
             }
         }
         let [one, other] = of_tracks;
-        let both = one
-            .iter()
-            .filter_map(|(track, points)| Some((points, other.get(track)?)));
-        let pairs = both.flat_map(|(one, other)| {
-            let pairs = one.iter().flat_map(|&a| other.iter().map(move |&b| (a, b)));
-            pairs.collect::<Vec<_>>()
-        });
-        Ok(pairs.collect())
+        let mut pairs = Vec::new();
+        for (track, points) in &one {
+            for &b in other.get(track).into_iter().flatten() {
+                pairs.extend(points.iter().map(|&a| (a, b)));
+            }
+        }
+        Ok(pairs)
     }
 
     /// Whether three points of both do not lie on a line, in either model. The similarity from the one model to the other
@@ -214,12 +221,9 @@ impl<'a> Two<'a> {
             *counts[0].entry(a).or_default() += 1;
             *counts[1].entry(b).or_default() += 1;
         }
-        let only = same
-            .iter()
-            .filter(|(a, b)| counts[0][a] == 1 && counts[1][b] == 1);
-        let placed =
-            only.filter_map(|(a, b)| Some([*self.places[0].get(a)?, *self.places[1].get(b)?]));
-        let placed: Vec<[[f64; 3]; 2]> = placed.collect();
+        let is_only = |(a, b): &&(u64, u64)| counts[0][a] == 1 && counts[1][b] == 1;
+        let only = same.iter().filter(is_only);
+        let placed: Vec<[[f64; 3]; 2]> = only.filter_map(|pair| self.placed(pair)).collect();
         let from = |side: usize, k: usize| {
             let [origin, point] = [0, k].map(|k| placed[k][side]);
             minus(point, origin)
@@ -240,19 +244,19 @@ impl<'a> Two<'a> {
         })
     }
 
+    /// Where a point of both is in each.
+    fn placed(&self, (a, b): &(u64, u64)) -> Option<[[f64; 3]; 2]> {
+        Some([*self.places[0].get(a)?, *self.places[1].get(b)?])
+    }
+
     /// What both share, as it is measured.
-    fn common(&self, same: impl Iterator<Item = (u64, u64)>, at_one_place: bool) -> Common<'a> {
-        let same: BTreeSet<(u64, u64)> = same.collect();
-        let same = same.iter();
-        let [one, other] = &self.places;
-        let images = self.both.iter();
+    fn common(&self, same: &BTreeSet<(u64, u64)>, at_one_place: bool) -> Common<'a> {
+        let view = |(name, &[a, b]): (&&'a str, &[usize; 2])| {
+            (*name, [self.views[0][a], self.views[1][b]])
+        };
         Common {
-            images: images
-                .map(|(name, &[a, b])| (*name, [self.views[0][a], self.views[1][b]]))
-                .collect(),
-            points: same
-                .filter_map(|(a, b)| Some([*one.get(a)?, *other.get(b)?]))
-                .collect(),
+            images: self.both.iter().map(view).collect(),
+            points: same.iter().filter_map(|pair| self.placed(pair)).collect(),
             at_one_place,
         }
     }
@@ -267,14 +271,11 @@ impl<'a> Two<'a> {
         };
         let useful = self.images().filter(|(_, both)| is_seen(both)).count();
         let is_other = |[a, b]: [&Image; 2]| a.id != b.id || a.points.len() != b.points.len();
-        let other = self.images().find(|(_, both)| is_other(*both));
-        let other = other.filter(|_| self.both.len() >= MERGER);
+        let mut enough = self.images().filter(|_| self.both.len() >= MERGER);
+        let other = enough.find(|(_, both)| is_other(*both));
+        let is_renamed = |name: &Box<str>, id| names.get(id).is_some_and(|other| *other != name);
         let mut all = self.models[0].images.iter();
-        let renamed = all.find(|image| {
-            names
-                .get(&image.id)
-                .is_some_and(|name| **name != image.name)
-        });
+        let renamed = all.find(|image| is_renamed(&image.name, &image.id));
         match (other, renamed) {
             (Some((name, _)), _) => Merger::Other(name.to_owned()),
             _ if useful < MERGER => Merger::TooFew(useful),
@@ -290,20 +291,12 @@ impl<'a> Two<'a> {
             let points: Vec<[f64; 3]> = self.places[side].values().copied().collect();
             first_at_place(&self.views[side], &points)
         });
-        let places = self
-            .both
-            .values()
-            .map(|both| [0, 1].map(|side| first[side][both[side]]));
-        places.collect::<BTreeSet<_>>().len()
+        let place = |both: &[usize; 2]| [0, 1].map(|side| first[side][both[side]]);
+        BTreeSet::from_iter(self.both.values().map(place)).len()
     }
 
-    /// What two models alone tell.
-    pub fn merge(&self) -> Merge {
-        self.merge_with(std::iter::empty())
-    }
-
-    /// The same, with further points that are the same.
-    fn merge_with(&self, further: impl Iterator<Item = (u64, u64)>) -> Merge {
+    /// What two models tell, with further points that are the same.
+    pub fn merge(&self, further: &[(u64, u64)]) -> Merge {
         let models = self.models;
         let places = self.places();
         let shared_points = self.same_features.then(|| {
@@ -311,10 +304,9 @@ impl<'a> Two<'a> {
             points.collect::<BTreeSet<u64>>().len()
         });
         let is_scaled = |model: &Model| !model.known_frames().groups.is_empty();
-        let of_scale = if models.iter().all(|model| is_scaled(model)) {
-            0
-        } else {
-            SCALE
+        let of_scale = match models.iter().all(|model| is_scaled(model)) {
+            true => 0,
+            false => SCALE,
         };
         let freedom = match (places, shared_points.unwrap_or(0)) {
             (0, _) => RIGID + of_scale,
@@ -322,21 +314,17 @@ impl<'a> Two<'a> {
             _ => 0,
         };
         let is_one_place = self.both.len() > 1 && places == 1;
-        let merger = self.merger(is_one_place);
+        let same = self.seen_in_both().chain(further.iter().copied()).collect();
         Merge {
             images: models.map(|model| model.images.len()),
             shared_places: places,
             points: models.map(|model| model.points.len()),
             shared_images: self.both.keys().map(|&name| name.to_owned()).collect(),
             shared_points,
-            misfit: self
-                .common(self.seen_in_both().chain(further), is_one_place)
-                .misfit(),
-            determined: freedom == 0,
+            misfit: self.common(&same, is_one_place).misfit(),
             freedom: Some(freedom),
-            free: free(freedom),
             by: By::Models,
-            merger,
+            merger: self.merger(is_one_place),
         }
     }
 }
@@ -361,15 +349,6 @@ fn refusal(path: &Path, why: &str) -> Error {
     ))
 }
 
-fn free(freedom: usize) -> &'static str {
-    match freedom {
-        0 => "nothing",
-        SCALE => "relative scale",
-        RIGID => "rotation and translation",
-        _ => "everything: rotation, translation and relative scale",
-    }
-}
-
 /// What two models and the tracks of their database tell: `input` is the camera-point graph, whose
 /// cameras have the names of images. Where rigs have known base lines, which known parts are not
 /// decided with, it gets the pairs of a chain of triangles on the cameras of each model, which holds
@@ -386,13 +365,12 @@ pub fn of_tracks(
 ) -> Result<Merge> {
     let mut parts = cameras_of(two.models, input)?;
     let same = two.in_one_track(tracks)?;
-    let mut merge = two.merge_with(same.iter().copied());
-    if merge.determined {
+    let mut merge = two.merge(&same);
+    if merge.is_determined() {
         return Ok(merge);
     }
     if two.span_a_plane(&same) {
-        merge.by = By::Points;
-        (merge.determined, merge.freedom, merge.free) = (true, Some(0), free(0));
+        (merge.by, merge.freedom) = (By::Points, Some(0));
         return Ok(merge);
     }
     if merge.shared_images.len() > 1 && merge.shared_places == 1 {
@@ -418,15 +396,15 @@ pub fn of_tracks(
     let options = Options::default().question(question).seed(seed);
     let verdict = decide(&input.graph, &options.watch(watch.clone()))?;
     merge.by = By::Tracks;
-    merge.determined = verdict.components.iter().any(|component| {
+    let are_one = verdict.components.iter().any(|component| {
         let nodes = component.nodes();
         let mut all = parts.iter().flatten();
         all.all(|v| nodes.binary_search(v).is_ok())
     });
-    if merge.determined {
-        (merge.freedom, merge.free) = (Some(0), free(0));
+    if are_one {
+        merge.freedom = Some(0);
     } else if merge.shared_images.is_empty() && are_connected(input, &parts) {
-        (merge.freedom, merge.free) = (None, "translation and scale, or a part of them");
+        merge.freedom = None;
     }
     Ok(merge)
 }
@@ -438,14 +416,10 @@ fn cameras_of(models: [&Model; 2], input: &NamedGraph) -> Result<[Vec<u32>; 2]> 
     let all = all.flat_map(|v| names.all_of(v).map(move |name| (name, v)));
     let nodes: BTreeMap<String, u32> = all.collect();
     let parts = models.map(|model| -> Result<Vec<u32>> {
-        let node = |image: &viewcert_formats::model::Image| {
-            nodes.get(&*image.name).copied().with_context(|| {
-                let name = &image.name;
-                format!(
-                    "image {name} of the model is not in {}; name its database",
-                    input.name
-                )
-            })
+        let node = |image: &Image| {
+            let (name, of) = (&image.name, &input.name);
+            let missing = || format!("image {name} of the model is not in {of}; name its database");
+            nodes.get(&**name).copied().with_context(missing)
         };
         let mut part: Vec<u32> = model.images.iter().map(node).collect::<Result<_>>()?;
         part.sort_unstable();
@@ -475,16 +449,4 @@ fn are_connected(input: &NamedGraph, parts: &[Vec<u32>; 2]) -> bool {
         });
     }
     sets.find(parts[0][0] as usize) == sets.find(parts[1][0] as usize)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_is_free_has_words() {
-        assert_eq!(free(0), "nothing");
-        assert_eq!(free(1), "relative scale");
-        assert!(free(7).contains("rotation"));
-    }
 }

@@ -40,7 +40,7 @@ impl Asked<'_> {
             .map(|path| self.tracks(session, path))
             .transpose()?;
         let found = match &mut tracks {
-            None => two.merge(),
+            None => two.merge(&[]),
             Some((input, features)) => {
                 let seed = Options::default().seed;
                 let found =

@@ -1,6 +1,6 @@
 //! What was found, in a few lines for people.
 
-use crate::shown::{SHOWN, rest};
+use crate::shown::{SHOWN, rest, row, some_names};
 use std::io::{self, Write};
 use viewcert::wording::counted;
 use viewcert_advice::named::{
@@ -57,24 +57,18 @@ pub fn joints(out: &mut impl Write, advice: &Advice) -> io::Result<()> {
         return Ok(());
     }
     let count = advice.joints.len();
-    let more = if advice.joints_complete {
-        ""
-    } else {
-        " and more"
-    };
-    writeln!(out, "  joints      {count}{more}")?;
+    let complete = advice.joints_complete;
+    let more = if complete { "" } else { " and more" };
+    row(out, "joints", format!("{count}{more}"))?;
     for joint in advice.joints.iter().take(SHOWN) {
-        let [one, other] = joint.between;
+        let ([one, other], how, free) = (joint.between, touching(joint), &joint.meaning);
+        let bound = match joint.strength {
+            "proof" => "",
+            _ => " (error bound)",
+        };
         writeln!(
             out,
-            "    components {one} and {other}: {}; free: {}{}",
-            touching(joint),
-            joint.meaning,
-            if joint.strength == "proof" {
-                ""
-            } else {
-                " (error bound)"
-            },
+            "    components {one} and {other}: {how}; free: {free}{bound}"
         )?;
     }
     rest(out, count, "--json lists them")
@@ -82,18 +76,13 @@ pub fn joints(out: &mut impl Write, advice: &Advice) -> io::Result<()> {
 
 /// How two components touch, and where.
 fn touching(joint: &Joint) -> String {
-    let at: Vec<String> = if joint.pairs.is_empty() {
-        let images = joint.images.iter();
-        images.take(SHOWN).cloned().collect()
-    } else {
-        let pairs = joint.pairs.iter().take(SHOWN);
-        pairs.map(|[a, b]| format!("{a} {b}")).collect()
-    };
-    let inliers = match joint.inliers.as_deref() {
-        None => String::new(),
-        Some(inliers) => format!(" (inliers: {})", list(inliers)),
-    };
-    format!("{}, {}{inliers}", joint.how, at.join(", "))
+    let pairs = joint.pairs.iter().map(|[a, b]| format!("{a} {b}"));
+    let images = joint.images.iter().filter(|_| joint.pairs.is_empty());
+    let at = pairs.chain(images.cloned()).take(SHOWN);
+    let at = at.collect::<Vec<_>>().join(", ");
+    let inliers = joint.inliers.as_deref().map(list);
+    let inliers = inliers.map_or_else(String::new, |all| format!(" (inliers: {all})"));
+    format!("{}, {at}{inliers}", joint.how)
 }
 
 fn list(numbers: &[impl ToString]) -> String {
@@ -102,31 +91,21 @@ fn list(numbers: &[impl ToString]) -> String {
 }
 
 fn weak(out: &mut impl Write, found: &Weak, single_pairs_only: bool) -> io::Result<()> {
-    let what = format!(
-        "without any one of these {} a component falls apart",
-        found.of
-    );
     if single_pairs_only {
-        return writeln!(
-            out,
-            "  weak        nothing to fall apart: no component is more than a pair"
-        );
+        let nothing = "nothing to fall apart: no component is more than a pair";
+        return row(out, "weak", nothing);
     }
-    writeln!(out, "  weak        {}", some(found.items.len(), &what))?;
+    let of = found.of;
+    let what = format!("without any one of these {of} a component falls apart");
+    row(out, "weak", some(found.items.len(), &what))?;
     for item in found.items.iter().take(SHOWN) {
-        let name = item.what.join(" ");
-        writeln!(
-            out,
-            "    {name} (component {}): {}",
-            item.component, item.why
-        )?;
+        let (name, component, why) = (item.what.join(" "), item.component, &item.why);
+        writeln!(out, "    {name} (component {component}): {why}")?;
     }
     rest(out, found.items.len(), "--json lists them")?;
     if found.kept != "solvable" {
-        writeln!(
-            out,
-            "    without any other one it stays finite solvable, if not unique"
-        )?;
+        let words = "without any other one it stays finite solvable, if not unique";
+        writeln!(out, "    {words}")?;
     }
     if found.single_pairs > 0 {
         let thing = match found.of {
@@ -134,10 +113,8 @@ fn weak(out: &mut impl Write, found: &Weak, single_pairs_only: bool) -> io::Resu
             _ => "single observation",
         };
         let pairs = counted(found.single_pairs, thing);
-        writeln!(
-            out,
-            "    not among them: {pairs}, on which no larger component rests"
-        )?;
+        let words = "on which no larger component rests";
+        writeln!(out, "    not among them: {pairs}, {words}")?;
     }
     Ok(())
 }
@@ -157,14 +134,10 @@ pub(crate) fn suggestions<'a>(
             [why] => ("", Some(why.clone())),
             _ => (" (all of them: enough, perhaps not the fewest)", None),
         };
-        let inliers = one
-            .inliers
-            .as_deref()
-            .map(|known| format!("inliers now: {}", list(known)));
-        let matches = one
-            .matches
-            .as_deref()
-            .map(|known| format!("matches: {}", list(known)));
+        let inliers = one.inliers.as_deref().map(list);
+        let inliers = inliers.map(|known| format!("inliers now: {known}"));
+        let matches = one.matches.as_deref().map(list);
+        let matches = matches.map(|known| format!("matches: {known}"));
         let tried = one.tried.as_deref().and_then(tried);
         let known = inliers.into_iter().chain(matches).chain(tried);
         let known: Vec<String> = reason.into_iter().chain(known).collect();
@@ -172,21 +145,20 @@ pub(crate) fn suggestions<'a>(
             0 => String::new(),
             _ => format!(" [{}]", known.join("; ")),
         };
+        let (pairs, joins) = (pairs.join(", "), joins(one));
+        let images = counted(one.images, "image");
         writeln!(
             out,
-            "    {}{enough}: {}, {} together{known}",
-            pairs.join(", "),
-            joins(one),
-            counted(one.images, "image"),
+            "    {pairs}{enough}: {joins}, {images} together{known}"
         )?;
         if let Some(enough) = &one.enough {
             writeln!(out, "      enough: {}", sufficient(enough))?;
         }
         if !one.also.is_empty() {
+            let also = one.also.join(", ");
             writeln!(
                 out,
-                "      at the same places, to be matched as well: {}",
-                one.also.join(", ")
+                "      at the same places, to be matched as well: {also}"
             )?;
         }
     }
@@ -234,23 +206,18 @@ pub(crate) fn photograph(found: &Photograph) -> String {
 
 /// The list of pairs, and the command that takes it.
 fn to_match(out: &mut impl Write, found: &ToMatch) -> io::Result<()> {
-    let ToMatch {
-        file,
-        pairs,
-        command,
-    } = found;
-    let Some(command) = command else {
-        return writeln!(
-            out,
-            "  written     no pair to {file}: none is left to match"
-        );
+    let file = &found.file;
+    let Some(command) = &found.command else {
+        let nothing = format!("no pair to {file}: none is left to match");
+        return row(out, "written", nothing);
     };
-    let pairs = counted(*pairs, "pair");
-    writeln!(
+    let pairs = counted(found.pairs, "pair");
+    let words = "the most promising first; match and verify, then ask again";
+    row(
         out,
-        "  written     {pairs} to {file}, the most promising first; match and verify, then ask again:"
-    )?;
-    writeln!(out, "    {command}")
+        "written",
+        format!("{pairs} to {file}, {words}:\n    {command}"),
+    )
 }
 
 /// How much has to come of matching two images.
@@ -279,25 +246,15 @@ fn joins(one: &Suggestion) -> String {
         None => "single pair",
         Some(_) => "single observation",
     };
-    let pairs = match one.single_pairs {
-        0 => String::new(),
-        count => counted(count, single),
-    };
-    let frames = match one.frames {
-        0 => String::new(),
-        count => counted(count, "frame"),
-    };
-    let both: Vec<String> = [parts, pairs, frames]
-        .into_iter()
-        .filter(|part| !part.is_empty())
-        .collect();
+    let others = [(one.single_pairs, single), (one.frames, "frame")];
+    let others = others.into_iter().filter(|(count, _)| *count > 0);
+    let all = others.map(|(count, what)| counted(count, what));
+    let parts = Some(parts).filter(|parts| !parts.is_empty());
+    let all: Vec<String> = parts.into_iter().chain(all).collect();
+    let all = all.join(" and ");
     match one.joins.len() + one.single_pairs + one.frames {
-        1 => format!(
-            "adds {} to {}",
-            counted(one.gain, "image"),
-            both.join(" and ")
-        ),
-        _ => format!("joins {}", both.join(" and ")),
+        1 => format!("adds {} to {all}", counted(one.gain, "image")),
+        _ => format!("joins {all}"),
     }
 }
 
@@ -308,15 +265,10 @@ fn explain(out: &mut impl Write, found: &Explain, of_tracks: bool) -> io::Result
         explain_pairs(out, found)?;
     }
     for pair in &found.unused {
-        let matches = pair
-            .matches
-            .map_or(String::new(), |count| format!(", {count} matches"));
-        writeln!(
-            out,
-            "    not used: {} with {}{matches}",
-            pair.image,
-            counted(pair.inliers as usize, "inlier")
-        )?;
+        let matches = pair.matches.map(|count| format!(", {count} matches"));
+        let (image, matches) = (&pair.image, matches.unwrap_or_default());
+        let inliers = counted(pair.inliers as usize, "inlier");
+        writeln!(out, "    not used: {image} with {inliers}{matches}")?;
     }
     if !found.suggestions.is_empty() {
         writeln!(out, "    it would help to match:")?;
@@ -327,96 +279,84 @@ fn explain(out: &mut impl Write, found: &Explain, of_tracks: bool) -> io::Result
 
 /// A camera, and the points that it sees.
 fn explain_observations(out: &mut impl Write, found: &Explain) -> io::Result<()> {
-    let outside = found.pairs_outside.len();
-    let place = match (&found.components[..], outside) {
-        ([], 0) => "sees no track that counts".to_owned(),
-        ([], _) => "is in no component of two cameras or more".to_owned(),
-        ([one], _) => format!("is in component {one}"),
-        (many, _) => format!("is in components {}, which it hinges", list(many)),
-    };
-    writeln!(out, "  image       {} {place}", found.image)?;
+    let nothing = "sees no track that counts";
+    place(
+        out,
+        found,
+        [nothing, "is in no component of two cameras or more"],
+    )?;
     if found.pairs_inside > 0 {
         let points = counted(found.pairs_inside, "point");
         writeln!(out, "    it sees {points} inside")?;
     }
     for sees in found.sees.iter().flatten().take(SHOWN) {
-        let points = counted(sees.points, "point");
+        let (component, needs) = (sees.component, sees.needs);
+        let points = format!("{} of component {component}", counted(sees.points, "point"));
         writeln!(
             out,
-            "    sees {points} of component {}; an incremental mapper wants {}",
-            sees.component, sees.needs
+            "    sees {points}; an incremental mapper wants {needs}"
         )?;
     }
     for seen in found.pairs_outside.iter().take(SHOWN) {
-        let reaches = match &seen.reaches[..] {
-            [] => "is in no such component either".to_owned(),
-            parts => format!(
-                "is in component {}, for which one observation is not enough",
-                list(parts)
-            ),
+        let reaches = match (&seen.reaches[..], list(&seen.reaches)) {
+            ([], _) => "is in no such component either".to_owned(),
+            (_, parts) => {
+                format!("is in component {parts}, for which one observation is not enough")
+            }
         };
         writeln!(out, "    it sees {}, which {reaches}", seen.image)?;
     }
-    rest(out, outside, "--json lists them")
+    rest(out, found.pairs_outside.len(), "--json lists them")
+}
+
+/// In which components an image is, with words for one that sees nothing and one that is in none.
+fn place(out: &mut impl Write, found: &Explain, none: [&str; 2]) -> io::Result<()> {
+    let place = match &found.components[..] {
+        [] => none[usize::from(!found.pairs_outside.is_empty())].to_owned(),
+        [one] => format!("is in component {one}"),
+        many => format!("is in components {}, which it hinges", list(many)),
+    };
+    row(out, "image", format!("{} {place}", found.image))
 }
 
 /// An image, and its pairs.
 fn explain_pairs(out: &mut impl Write, found: &Explain) -> io::Result<()> {
-    let outside = found.pairs_outside.len();
-    let place = match (&found.components[..], outside) {
-        ([], 0) => "has no pair".to_owned(),
-        ([], _) => "is in no component larger than a pair".to_owned(),
-        ([one], _) => format!("is in component {one}"),
-        (many, _) => format!("is in components {}, which it hinges", list(many)),
-    };
-    writeln!(out, "  image       {} {place}", found.image)?;
+    place(
+        out,
+        found,
+        ["has no pair", "is in no component larger than a pair"],
+    )?;
     if found.pairs_inside > 0 {
         let pairs = counted(found.pairs_inside, "pair");
         writeln!(out, "    {pairs} inside")?;
     }
     for pair in found.pairs_outside.iter().take(SHOWN) {
-        let inliers = pair
-            .inliers
-            .map_or(String::new(), |count| format!(" ({count} inliers)"));
-        let reaches = match &pair.reaches[..] {
-            [] => "leads to an image in no larger component either".to_owned(),
-            parts => format!(
-                "leads to component {}, for which one pair is not enough",
-                list(parts)
-            ),
+        let inliers = pair.inliers.map(|count| format!(" ({count} inliers)"));
+        let reaches = match (&pair.reaches[..], list(&pair.reaches)) {
+            ([], _) => "leads to an image in no larger component either".to_owned(),
+            (_, parts) => format!("leads to component {parts}, for which one pair is not enough"),
         };
+        let other = pair.image.clone() + &inliers.unwrap_or_default();
         writeln!(
             out,
-            "    pair with {}{inliers} is in no larger component: {reaches}",
-            pair.image
+            "    pair with {other} is in no larger component: {reaches}"
         )?;
     }
-    rest(out, outside, "--json lists them")
+    rest(out, found.pairs_outside.len(), "--json lists them")
 }
 
 fn export(out: &mut impl Write, found: &Export) -> io::Result<()> {
     let parts = counted(found.components, "component");
-    writeln!(out, "  exported    {parts} to {}", found.folder)?;
+    row(out, "exported", format!("{parts} to {}", found.folder))?;
     if !found.shared_images.is_empty() {
-        let shown = &found.shared_images[..found.shared_images.len().min(SHOWN)];
-        writeln!(
-            out,
-            "    {} in several components: {}{}",
-            counted(found.shared_images.len(), "image"),
-            shown.join(", "),
-            if shown.len() < found.shared_images.len() {
-                ", ..."
-            } else {
-                ""
-            },
-        )?;
+        let images = counted(found.shared_images.len(), "image");
+        let names = some_names(&found.shared_images);
+        writeln!(out, "    {images} in several components: {names}")?;
     }
     if found.outside > 0 {
-        writeln!(
-            out,
-            "    {} in no component that is exported (images.tsv lists them)",
-            counted(found.outside, "image")
-        )?;
+        let images = counted(found.outside, "image");
+        let words = "in no component that is exported (images.tsv lists them)";
+        writeln!(out, "    {images} {words}")?;
     }
     if let Some(commands) = found.commands.first() {
         writeln!(

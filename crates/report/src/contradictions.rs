@@ -1,7 +1,8 @@
 //! What contradicts what among measured motions, for people and for programs.
 
+use super::counted;
 use super::json::write_line;
-use super::{counted, text};
+use crate::shown::time;
 use serde_json::{Value, json};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -254,11 +255,7 @@ impl Contradicted {
             }
             writeln!(out, "    {command}")?;
         }
-        writeln!(
-            out,
-            "  time        {}",
-            text::seconds(self.time.as_micros())
-        )
+        time(out, self.time)
     }
 
     /// What is written as JSON.

@@ -1,11 +1,9 @@
 //! A database of matches on a few lines.
 
 use super::counted;
+use crate::shown::{row, several};
 use std::io::{self, Write};
 use viewcert_formats::colmap::{Bin, DatabaseFacts, Pipeline, config_name};
-
-/// How many connected parts are shown with their sizes.
-const SHOWN: usize = 8;
 
 /// Writes the summary.
 ///
@@ -16,15 +14,15 @@ pub fn write(out: &mut impl Write, facts: &DatabaseFacts) -> io::Result<()> {
         0 => String::new(),
         count => format!(" ({count} without a pair)"),
     };
-    writeln!(
-        out,
-        "  database    {}{without}, {}, {} used ({} mapping, at least {})",
+    let (images, pairs) = (
         counted(facts.images, "image"),
         counted(facts.pairs, "verified pair"),
-        facts.pairs_used,
-        facts.pipeline,
-        counted(facts.min_inliers as usize, "inlier"),
-    )?;
+    );
+    let (used, pipeline) = (facts.pairs_used, facts.pipeline);
+    let least = counted(facts.min_inliers as usize, "inlier");
+    let words =
+        format!("{images}{without}, {pairs}, {used} used ({pipeline} mapping, at least {least})");
+    row(out, "database", words)?;
     let configs = facts.configs.iter().map(|count| {
         let used = match count.used == count.pairs {
             true => String::new(),
@@ -34,19 +32,15 @@ pub fn write(out: &mut impl Write, facts: &DatabaseFacts) -> io::Result<()> {
     });
     list(out, "pairs", configs)?;
     list(out, "inliers", facts.inliers.iter().map(bin))?;
-    let parts = facts.connected.iter().filter(|&&size| size > 1);
-    let mut sizes: Vec<String> = parts.clone().take(SHOWN).map(usize::to_string).collect();
-    let count = parts.count();
-    if count > SHOWN {
-        sizes.push(format!("{} more", count - SHOWN));
-    }
-    match count {
-        0 => writeln!(out, "  connected   nothing"),
-        _ => writeln!(
+    let mut parts = facts.connected.clone();
+    parts.retain(|&size| size > 1);
+    let count = counted(parts.len(), "part");
+    match parts.is_empty() {
+        true => row(out, "connected", "nothing"),
+        false => row(
             out,
-            "  connected   {}: {} images",
-            counted(count, "part"),
-            sizes.join(", ")
+            "connected",
+            format!("{count}: {} images", several(&parts, ", ")),
         ),
     }
 }
@@ -62,10 +56,10 @@ fn bin(bin: &Bin) -> String {
 
 fn list(out: &mut impl Write, title: &str, items: impl Iterator<Item = String>) -> io::Result<()> {
     let items: Vec<String> = items.collect();
-    if items.is_empty() {
-        return Ok(());
+    match items.is_empty() {
+        true => Ok(()),
+        false => row(out, title, items.join(", ")),
     }
-    writeln!(out, "  {title:<12}{}", items.join(", "))
 }
 
 /// What the mapper that was not named does otherwise with some of the pairs.

@@ -1,15 +1,15 @@
 //! Lists of images and what they determine, for people and for programs.
 
-use super::json::{GraphLine, write_line};
-use super::{condition, counted, head, text};
-use crate::shown::{SHOWN, rest, some, some_names};
-use serde::Serialize;
+use super::json::{GraphLine, joined, present, write_line};
+use super::{condition, counted, head};
+use crate::shown::{SHOWN, rest, row, some, some_names, time};
+use serde_json::json;
 use std::io::{self, Write};
 use std::time::Duration;
 use viewcert::Model;
 use viewcert::decide::Options;
 use viewcert_advice::lists::{Fixed, Found, Lists};
-use viewcert_formats::{NamedGraph, ReadAs};
+use viewcert_formats::NamedGraph;
 
 /// Lists, and what was found about them.
 pub struct ListReport<'a> {
@@ -38,34 +38,22 @@ impl ListReport<'_> {
             }
             _ => "each list by its own pairs, calibrated",
         };
-        writeln!(out, "  decided     {by}")?;
+        row(out, "decided", by)?;
         for (k, list) in (1..).zip(&lists.lists) {
-            let (title, condition) = (format!("list {k}"), self.condition(list.whole));
-            writeln!(
-                out,
-                "  {title:<12}{}: {}{condition}",
-                list.file,
-                found(list)
-            )?;
+            let (file, condition) = (&list.file, self.condition(list.whole));
+            let words = format!("{file}: {}{condition}", found(list));
+            row(out, &format!("list {k}"), words)?;
         }
         for overlap in lists.overlaps.iter().take(SHOWN) {
-            let [a, b] = overlap.between;
-            let images = counted(overlap.images.len(), "image");
-            let names = some_names(&overlap.images);
-            writeln!(out, "  overlap     {a} and {b}: {images}, {names}")?;
+            let ([a, b], images) = (overlap.between, named(&overlap.images));
+            row(out, "overlap", format!("{a} and {b}: {images}"))?;
         }
         rest(out, lists.overlaps.len(), "--json lists them")?;
-        writeln!(out, "  scale       {}", self.scale())?;
+        row(out, "scale", self.scale())?;
         if !lists.outside.is_empty() {
-            let count = counted(lists.outside.len(), "image");
-            let names = some_names(&lists.outside);
-            writeln!(out, "  in no list  {count}, {names}")?;
+            row(out, "in no list", named(&lists.outside))?;
         }
-        writeln!(
-            out,
-            "  time        {}",
-            text::seconds(self.time.as_micros())
-        )
+        time(out, self.time)
     }
 
     /// What a promise rests on, in words behind it.
@@ -107,18 +95,24 @@ impl ListReport<'_> {
     /// # Errors
     /// Those of the writer.
     pub fn write_json(&self, out: &mut impl Write) -> io::Result<()> {
-        let line = Line {
-            graph: GraphLine::of(self.input),
-            read: &self.input.read,
-            notes: &self.input.notes,
-            by: self.by,
-            condition: condition::of_photographs(self.input, Model::Calibrated)
+        let line = present(json!({
+            "graph": GraphLine::of(self.input),
+            "read": self.input.read,
+            "notes": self.input.notes,
+            "by": self.by,
+            "condition": condition::of_photographs(self.input, Model::Calibrated)
                 .filter(|_| self.lists.lists.iter().any(|list| list.whole)),
-            lists: self.lists,
-            seconds: self.time.as_secs_f64(),
-        };
+            "seconds": self.time.as_secs_f64(),
+        }));
+        let line = joined(line, self.lists);
         write_line(out, "lists", Some(Options::default().seed), &line)
     }
+}
+
+/// So many images, and their names.
+fn named(images: &[String]) -> String {
+    let count = counted(images.len(), "image");
+    format!("{count}, {}", some_names(images))
 }
 
 /// What one list determines by itself.
@@ -138,17 +132,4 @@ fn found(list: &Found) -> String {
         _ => format!(", in none: {}", some_names(&list.outside)),
     };
     format!("{images}, not whole: {parts}{outside}")
-}
-
-#[derive(Serialize)]
-struct Line<'a> {
-    graph: GraphLine<'a>,
-    read: &'a ReadAs,
-    notes: &'a [String],
-    by: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    condition: Option<String>,
-    #[serde(flatten)]
-    lists: &'a Lists,
-    seconds: f64,
 }

@@ -1,9 +1,9 @@
 //! Two models and what they share, for people and for programs.
 
-use super::json::{GraphLine, write_line};
-use super::{condition, counted, text};
-use crate::shown::{SHOWN, rest, some_names};
-use serde::Serialize;
+use super::json::{GraphLine, joined, present, write_line};
+use super::{condition, counted};
+use crate::shown::{SHOWN, notes, rest, row, some_names, time};
+use serde_json::json;
 use std::io::{self, Write};
 use std::time::Duration;
 use viewcert::decide::Options;
@@ -11,11 +11,15 @@ use viewcert::wording::printable;
 use viewcert_advice::export::shell;
 use viewcert_advice::merge::{By, MERGER, Merge, Merger};
 use viewcert_advice::misfit::{Misfit, OFF, TURNED};
-use viewcert_formats::{NamedGraph, ReadAs};
+use viewcert_formats::NamedGraph;
 
 /// What an answer by tracks rests on.
 const BY_TRACKS: &str =
     "if every pair is right, its rotation included, and places are in general position";
+
+/// Why points are not compared.
+const OTHER_FEATURES: &str =
+    "points are not compared: images of both have other features here and there";
 
 /// Two models, and what was found about them.
 pub struct MergeReport<'a> {
@@ -40,61 +44,49 @@ impl MergeReport<'_> {
         for (k, model) in self.models.iter().enumerate() {
             let images = counted(merge.images[k], "image");
             let points = counted(merge.points[k], "point");
-            writeln!(out, "  model {}     {model}: {images}, {points}", k + 1)?;
+            let words = format!("{model}: {images}, {points}");
+            row(out, &format!("model {}", k + 1), words)?;
         }
         if let Some(input) = self.tracks {
-            writeln!(out, "  tracks      of {}", printable(&input.name))?;
-            for note in &input.notes {
-                writeln!(out, "  note        {note}")?;
-            }
+            row(out, "tracks", format!("of {}", printable(&input.name)))?;
+            notes(out, &input.notes)?;
         }
         let shown = some_names(&merge.shared_images);
         let colon = if shown.is_empty() { "" } else { ": " };
         let images = counted(merge.shared_images.len(), "image");
-        writeln!(out, "  shared      {images}{colon}{shown}")?;
-        match merge.shared_points {
-            Some(points) => writeln!(out, "              {}", counted(points, "point"))?,
-            None => writeln!(
-                out,
-                "              points are not compared: images of both have other features here and \
-                 there"
-            )?,
-        }
-        writeln!(out, "  fixed       {}", self.answer())?;
-        if !merge.determined {
-            writeln!(out, "  free        {}", merge.free)?;
+        row(out, "shared", images + colon + &shown)?;
+        let points = match merge.shared_points {
+            Some(points) => counted(points, "point"),
+            None => OTHER_FEATURES.to_owned(),
+        };
+        row(out, "", points)?;
+        row(out, "fixed", self.answer())?;
+        if !merge.is_determined() {
+            row(out, "free", merge.free())?;
         }
         if let Some(misfit) = &merge.misfit {
-            writeln!(out, "  misfit      {}", fit(misfit))?;
+            row(out, "misfit", fit(misfit))?;
             for one in misfit.disagree.iter().take(SHOWN) {
-                writeln!(
-                    out,
-                    "    {}: {:.4} of the spread off, turned by {:.4} degrees",
-                    one.image, one.off, one.turned
-                )?;
+                let (image, off, turned) = (&one.image, one.off, one.turned);
+                let words = format!("{off:.4} of the spread off, turned by {turned:.4} degrees");
+                writeln!(out, "    {image}: {words}")?;
             }
             rest(out, misfit.disagree.len(), "--json lists them")?;
         }
-        writeln!(out, "  merger      {}", self.merger())?;
+        row(out, "merger", self.merger())?;
         let (command, purpose) = self.next();
-        writeln!(out, "  next        {purpose}:")?;
-        writeln!(out, "    {command}")?;
-        writeln!(
-            out,
-            "  time        {}",
-            text::seconds(self.time.as_micros())
-        )
+        row(out, "next", format!("{purpose}:\n    {command}"))?;
+        time(out, self.time)
     }
 
     /// The answer in a line.
     fn answer(&self) -> String {
         let merge = self.merge;
-        let places = match (merge.shared_images.len(), merge.shared_places) {
-            (0 | 1, _) => "",
-            (_, 1) => ": the images in both are at one place",
-            _ => "",
+        let places = match merge.shared_images.len() > 1 && merge.shared_places == 1 {
+            true => ": the images in both are at one place",
+            false => "",
         };
-        match (merge.determined, merge.agree()) {
+        match (merge.is_determined(), merge.agree()) {
             (true, true) => format!(
                 "yes: rotation, translation and scale are determined {}",
                 self.condition().unwrap_or_default()
@@ -147,11 +139,11 @@ impl MergeReport<'_> {
             );
         }
         match (database, &merge.misfit) {
-            (None, _) if !merge.determined => (
+            (None, _) if !merge.is_determined() => (
                 format!("verify merge {one} {other} database.db"),
                 "name the database of both models: its tracks may fix more",
             ),
-            (Some(database), _) if !merge.determined => (
+            (Some(database), _) if !merge.is_determined() => (
                 format!("verify advise --tracks {database}"),
                 "see what to match: a pair between the two models would join them",
             ),
@@ -182,40 +174,38 @@ impl MergeReport<'_> {
     /// Those of the writer.
     pub fn write_json(&self, out: &mut impl Write) -> io::Result<()> {
         let (command, purpose) = self.next();
-        let line = Line {
-            models: &self.models,
-            graph: self.tracks.map(GraphLine::of),
-            read: self.tracks.map(|input| &input.read),
-            notes: self.tracks.map_or(&[][..], |input| &input.notes),
-            merge: self.merge,
-            condition: self.condition(),
-            model_merger: matches!(self.merge.merger, Merger::Works | Merger::OnePlace),
-            merger: self.merger(),
-            next: [Next { command, purpose }],
-            seconds: self.time.as_secs_f64(),
-        };
+        let line = present(json!({
+            "models": self.models,
+            "graph": self.tracks.map(GraphLine::of),
+            "read": self.tracks.map(|input| &input.read),
+            "notes": self.tracks.map_or(&[][..], |input| &input.notes),
+            "determined": self.merge.is_determined(),
+            "free": self.merge.free(),
+            "condition": self.condition(),
+            "model_merger": matches!(self.merge.merger, Merger::Works | Merger::OnePlace),
+            "merger": self.merger(),
+            "next": [{ "command": command, "purpose": purpose }],
+            "seconds": self.time.as_secs_f64(),
+        }));
         let seed = self.tracks.map(|_| Options::default().seed);
-        write_line(out, "merge", seed, &line)
+        write_line(out, "merge", seed, &joined(line, self.merge))
     }
 }
 
 /// How well two models fit, in words.
 fn fit(misfit: &Misfit) -> String {
-    let of = |what: &str, count: usize, bad: usize, off: Option<f64>| {
-        let off = off.map_or(String::new(), |off| {
-            format!(", the middle one {off:.4} of their spread off")
-        });
-        (count > 0).then(|| format!("{bad} of {} disagree{off}", counted(count, what)))
-    };
-    let disagree = misfit.disagree.len();
-    let images = of("image", misfit.images, disagree, misfit.images_off);
-    let points = of(
-        "point",
-        misfit.points,
-        misfit.points_disagree,
-        misfit.points_off,
-    );
-    let both: Vec<String> = images.into_iter().chain(points).collect();
+    let (images, points) = (misfit.disagree.len(), misfit.points_disagree);
+    let both = [
+        ("image", misfit.images, images, misfit.images_off),
+        ("point", misfit.points, points, misfit.points_off),
+    ];
+    let both = both.into_iter().filter(|(_, count, ..)| *count > 0);
+    let both = both.map(|(what, count, bad, off)| {
+        let middle = |off| format!(", the middle one {off:.4} of their spread off");
+        let off = off.map_or_else(String::new, middle);
+        format!("{bad} of {} disagree{off}", counted(count, what))
+    });
+    let both: Vec<String> = both.collect();
     let answer = match misfit.agree {
         true => "the models agree",
         false => "the models contradict each other",
@@ -242,28 +232,4 @@ fn transformed(model: &str, misfit: &Misfit) -> String {
         viewcert_advice::export::python(model),
         rows.join(", ")
     )
-}
-
-#[derive(Serialize)]
-struct Next {
-    command: String,
-    purpose: &'static str,
-}
-
-#[derive(Serialize)]
-struct Line<'a> {
-    models: &'a [String; 2],
-    #[serde(skip_serializing_if = "Option::is_none")]
-    graph: Option<GraphLine<'a>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    read: Option<&'a ReadAs>,
-    notes: &'a [String],
-    #[serde(flatten)]
-    merge: &'a Merge,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    condition: Option<&'static str>,
-    model_merger: bool,
-    merger: String,
-    next: [Next; 1],
-    seconds: f64,
 }

@@ -11,7 +11,7 @@ use super::{
 use crate::advice::{joints as write_joints, photograph, suggestions as write_suggestions};
 use crate::contradictions::Contradicted;
 use crate::intrinsics::IntrinsicsLine;
-use crate::shown::several;
+use crate::shown::{notes, several, time};
 use serde::Serialize;
 use serde_json::json;
 use std::cell::OnceCell;
@@ -490,8 +490,7 @@ impl Overview<'_> {
             (None, Some(reason)) => writeln!(out, "  tracks      none: {reason}")?,
             (None, None) => {}
         }
-        let mut notes = self.notes.iter();
-        notes.try_for_each(|note| writeln!(out, "  note        {note}"))?;
+        notes(out, &self.notes)?;
         self.write_parts(out)?;
         self.write_joints(out)?;
         self.write_suggested(out)?;
@@ -500,8 +499,7 @@ impl Overview<'_> {
                 wrapped(out, "begins at", &words)?;
             }
         }
-        let time = text::seconds(self.time.as_micros());
-        writeln!(out, "  time        {time}")
+        time(out, self.time)
     }
 
     fn write_parts<W: Write>(&self, out: &mut W) -> io::Result<()> {

@@ -104,32 +104,25 @@ impl OwnFrameLine {
 
     /// The rank in words.
     pub(crate) fn rank_words(&self) -> String {
-        let Self {
-            rank,
-            rank_at_most,
-            rank_required,
-            ..
-        } = self;
-        match rank == rank_at_most {
-            true => format!("{rank} of {rank_required} with what is given (proved)"),
-            false => format!(
-                "at least {rank} and at most {rank_at_most} of {rank_required} with what is given (proved)"
-            ),
-        }
+        let (rank, most, required) = (self.rank, self.rank_at_most, self.rank_required);
+        let rank = match rank == most {
+            true => rank.to_string(),
+            false => format!("at least {rank} and at most {most}"),
+        };
+        format!("{rank} of {required} with what is given (proved)")
     }
 
     /// What is given, in words.
     pub(crate) fn known(&self) -> String {
-        format!(
-            "displacements between {} in {}{}, in a frame of their own",
+        let given = match self.vectors {
+            true => ", as given vectors",
+            false => "",
+        };
+        let (cameras, groups) = (
             counted(self.cameras, "camera"),
             counted(self.groups, "group"),
-            if self.vectors {
-                ", as given vectors"
-            } else {
-                ""
-            }
-        )
+        );
+        format!("displacements between {cameras} in {groups}{given}, in a frame of their own")
     }
 
     /// The answer in words.
@@ -140,12 +133,13 @@ impl OwnFrameLine {
         };
         let condition = condition.map_or_else(String::new, |words| format!(" {words}"));
         match self.answer {
-            Some(Value::Solvable) => match input.cameras {
-                None => format!("solvable: the cameras are unique{condition} (proved)"),
-                Some(_) => format!(
-                    "solvable: the positions of all cameras and points are unique{condition} (proved)"
-                ),
-            },
+            Some(Value::Solvable) => {
+                let all = match input.cameras {
+                    None => "the cameras",
+                    Some(_) => "the positions of all cameras and points",
+                };
+                format!("solvable: {all} are unique{condition} (proved)")
+            }
             Some(Value::FiniteSolvable) => {
                 format!("finite-solvable: finitely many {sets}{condition} (proved)")
             }
@@ -206,16 +200,15 @@ fn because(input: &NamedGraph, found: &OwnFrame, only_given: usize) -> String {
                 .to_owned();
         }
         Some(Value::FiniteSolvable) => {
-            let open: Vec<String> = parts
-                .filter(|(_, part)| !part.is_fixed)
-                .map(|(number, _)| number.to_string())
-                .collect();
-            let noun = if open.len() == 1 { "part" } else { "parts" };
+            let open = parts.filter(|(_, part)| !part.is_fixed);
+            let open: Vec<String> = open.map(|(number, _)| number.to_string()).collect();
+            let which = match &open[..] {
+                [one] => format!("part {one} is"),
+                all => format!("parts {} are", all.join(", ")),
+            };
             return format!(
-                "the rank is full; nothing that is rigid without what is given shows how {noun} {} {} turned, so that \
-                 several solutions may exist",
-                open.join(", "),
-                if open.len() == 1 { "is" } else { "are" }
+                "the rank is full; nothing that is rigid without what is given shows how {which} turned, so that \
+                 several solutions may exist"
             );
         }
         Some(Value::NotFiniteSolvable) => {}
@@ -233,18 +226,15 @@ fn because(input: &NamedGraph, found: &OwnFrame, only_given: usize) -> String {
         .map(|(number, part)| {
             let of = match found.parts.len() {
                 1 => "the graph".to_owned(),
-                _ => format!(
-                    "part {number} ({}{})",
-                    input.labels.display(part.nodes[0]),
-                    if part.nodes.len() > 1 { ", .." } else { "" }
-                ),
+                _ => {
+                    let more = if part.nodes.len() > 1 { ", .." } else { "" };
+                    let first = input.labels.display(part.nodes[0]);
+                    format!("part {number} ({first}{more})")
+                }
             };
             match part.given.len() {
                 1 => format!("{of} turns about its one position"),
-                count => format!(
-                    "{of} turns about the line through its {}",
-                    counted(count, "position")
-                ),
+                count => format!("{of} turns about the line through its {count} positions"),
             }
         })
         .collect();
@@ -252,23 +242,19 @@ fn because(input: &NamedGraph, found: &OwnFrame, only_given: usize) -> String {
         why.push(format!("and so do {} more", turning.len() - NAMED));
     }
     if only_given > 0 {
-        why.push(format!(
-            "{} a position and no pair",
-            match only_given {
-                1 => "1 camera has".to_owned(),
-                count => format!("{count} cameras have"),
-            }
-        ));
+        let who = match only_given {
+            1 => "1 camera has".to_owned(),
+            count => format!("{count} cameras have"),
+        };
+        why.push(who + " a position and no pair");
     }
     let nothing = found.alone.len() - only_given;
     if nothing > 0 {
-        why.push(format!(
-            "{} no pair and no position",
-            match nothing {
-                1 => "1 camera or point has".to_owned(),
-                count => format!("{count} cameras or points have"),
-            }
-        ));
+        let who = match nothing {
+            1 => "1 camera or point has".to_owned(),
+            count => format!("{count} cameras or points have"),
+        };
+        why.push(who + " no pair and no position");
     }
     if why.is_empty() {
         why.push(format!("counting allows rank {} at most", found.at_most));

@@ -3,7 +3,9 @@
 //! In: what one prior more would do. Out: lines of a report, the member `priors` of `intrinsics`.
 
 use super::counted;
+use crate::shown::row;
 use serde::Serialize;
+use std::borrow::Cow;
 use std::io::{self, Write};
 use viewcert::intrinsics::{Class, Metric, Prior, Sensors};
 use viewcert_advice::priors::Priors;
@@ -56,12 +58,10 @@ impl PriorLine {
     fn new(input: &NamedGraph, sensors: &Sensors, found: &Metric, prior: &Prior) -> Self {
         let class = sensors.class(prior.sensor);
         let before = found.determined.iter().filter(|&&is| is).count();
-        let labels = prior.nodes.iter();
+        let labels = prior.nodes.iter().map(|&v| input.labels.label(v));
         Self {
             class: class.word(),
-            labels: labels
-                .map(|&v| input.labels.label(v).into_owned())
-                .collect(),
+            labels: labels.map(Cow::into_owned).collect(),
             verdict: prior.verdict(),
             proved: prior.is_proved(),
             rank: prior.rank,
@@ -124,21 +124,18 @@ impl PriorsLine {
     /// # Errors
     /// Those of the writer.
     pub(crate) fn write(&self, out: &mut impl Write) -> io::Result<()> {
-        let nothing = |out: &mut _, why: &str| -> io::Result<()> {
-            let out: &mut dyn Write = out;
-            writeln!(out, "  suggested   nothing to calibrate: {why}")
+        let nothing = match self.is_done {
+            [true, _] => Some("the graph is metric"),
+            [_, true] => Some("all intrinsics are determined"),
+            _ if self.each.is_empty() => Some("cameras that are not determined have no pairs"),
+            _ => None,
         };
-        match self.is_done {
-            [true, _] => return nothing(out, "the graph is metric"),
-            [_, true] => {
-                nothing(out, "all intrinsics are determined")?;
-                return self.write_limit(out);
-            }
-            _ => {}
-        }
-        if self.each.is_empty() {
-            nothing(out, "cameras that are not determined have no pairs")?;
-            return self.write_limit(out);
+        if let Some(why) = nothing {
+            row(out, "suggested", format!("nothing to calibrate: {why}"))?;
+            return match self.is_done[0] {
+                true => Ok(()),
+                false => self.write_limit(out),
+            };
         }
         let count = match self.sensors {
             1 => "the only sensor that is not determined".to_owned(),
@@ -157,23 +154,18 @@ impl PriorsLine {
         }
         let helps = |line: &PriorLine| line.others > 0 || line.largest > self.largest;
         if !self.each.iter().any(helps) && self.if_all_known == "metric" {
-            writeln!(
-                out,
-                "    none alone determines anything else: it takes several"
-            )?;
+            let words = "none alone determines anything else: it takes several";
+            writeln!(out, "    {words}")?;
         }
         self.write_limit(out)
     }
 
     /// What one prior does, in words.
     fn effect(&self, line: &PriorLine) -> String {
-        let strength = if line.proved {
-            "proved".to_owned()
-        } else {
-            format!(
-                "the rank is {} at least and {} at most",
-                line.rank, line.rank_at_most
-            )
+        let (least, most) = (line.rank, line.rank_at_most);
+        let strength = match line.proved {
+            true => "proved".to_owned(),
+            false => format!("the rank is {least} at least and {most} at most"),
         };
         if line.verdict == "metric" {
             return "metric, all cameras and intrinsics (proved)".to_owned();

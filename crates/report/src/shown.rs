@@ -1,8 +1,10 @@
 //! Lists that are cut, and the first lines of reports.
 
 use crate::size_of;
+use crate::text::seconds;
 use std::fmt::Display;
 use std::io::{self, Write};
+use std::time::Duration;
 use viewcert::wording::printable;
 use viewcert_formats::NamedGraph;
 
@@ -43,6 +45,11 @@ pub(crate) fn several(sizes: &[usize], between: &str) -> String {
 /// Writes a line of a report: a title, and words behind it.
 pub(crate) fn row(out: &mut impl Write, title: &str, words: impl Display) -> io::Result<()> {
     writeln!(out, "  {title:<11} {words}")
+}
+
+/// Says how long it took, as the last line.
+pub(crate) fn time(out: &mut impl Write, time: Duration) -> io::Result<()> {
+    row(out, "time", seconds(time.as_micros()))
 }
 
 /// Writes the lines that say what graph it is and how it was read.

@@ -2,8 +2,8 @@
 
 use super::json::write_line;
 use super::{condition, counted, text};
-use crate::shown::{SHOWN, rest, some_names};
-use serde::Serialize;
+use crate::shown::{SHOWN, notes, rest, row, some_names, time};
+use serde_json::json;
 use std::io::{self, Write};
 use std::time::Duration;
 use viewcert::at_cameras::finished::Held;
@@ -91,41 +91,29 @@ impl SplitReport<'_> {
     pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
         let split = self.split;
         writeln!(out, "{}", printable(&self.model))?;
-        for note in &self.notes {
-            writeln!(out, "  note        {note}")?;
-        }
+        notes(out, &self.notes)?;
         let points = counted(self.posed.points.len(), "point");
         let observations = counted(self.observations(), "observation");
-        writeln!(
-            out,
-            "  points      {points} in at least {} images: {observations}",
-            self.least
-        )?;
-        writeln!(out, "  images      {}", self.answer())?;
+        let words = format!("{points} in at least {} images: {observations}", self.least);
+        row(out, "points", words)?;
+        row(out, "images", self.answer())?;
         for free in self.free.iter().take(SHOWN) {
             let [one, other] = free.between;
-            writeln!(
-                out,
-                "  free        parts {one} and {other}: {}",
-                free.meaning
-            )?;
+            let words = format!("parts {one} and {other}: {}", free.meaning);
+            row(out, "free", words)?;
         }
         rest(out, self.free.len(), "--json lists them")?;
-        writeln!(out, "  softest     {}", self.softest())?;
+        row(out, "softest", self.softest())?;
         let soft = self.softness.map_or(0, |softness| softness.soft_points);
         if self.held.loose_points + soft > 0 {
-            writeln!(
-                out,
-                "  soft        {} with all rays on one line, {soft} as soft as rounding (floating point): they decide nothing",
-                counted(self.held.loose_points, "point")
-            )?;
+            let loose = counted(self.held.loose_points, "point");
+            let words = format!(
+                "{loose} with all rays on one line, {soft} as soft as rounding (floating point): they decide nothing"
+            );
+            row(out, "soft", words)?;
         }
-        writeln!(
-            out,
-            "  written     {} in {}",
-            counted(split.parts.len(), "model"),
-            split.folder
-        )?;
+        let models = counted(split.parts.len(), "model");
+        row(out, "written", format!("{models} in {}", split.folder))?;
         for part in split.parts.iter().take(SHOWN) {
             let images = counted(part.images.len(), "image");
             let points = counted(part.points, "point");
@@ -134,20 +122,14 @@ impl SplitReport<'_> {
         }
         rest(out, split.parts.len(), "--json lists them")?;
         if !split.outside.is_empty() {
-            writeln!(out, "  in no part  {}", some_names(&split.outside))?;
+            row(out, "in no part", some_names(&split.outside))?;
         }
-        if split.points_cut + split.points_left_out > 0 {
-            writeln!(
-                out,
-                "  points      {} without all views, {} in no part",
-                split.points_cut, split.points_left_out
-            )?;
+        let (cut, left_out) = (split.points_cut, split.points_left_out);
+        if cut + left_out > 0 {
+            let words = format!("{cut} without all views, {left_out} in no part");
+            row(out, "points", words)?;
         }
-        writeln!(
-            out,
-            "  time        {}",
-            text::seconds(self.time.as_micros())
-        )
+        time(out, self.time)
     }
 
     fn observations(&self) -> usize {
@@ -161,55 +143,25 @@ impl SplitReport<'_> {
     pub fn write_json(&self, out: &mut impl Write) -> io::Result<()> {
         let freedom = self.held.freedom;
         let softest = self.softness.filter(|softness| softness.pixels.is_finite());
-        let line = Line {
-            model: &self.model,
-            notes: &self.notes,
-            points: self.posed.points.len(),
-            min_views: self.least,
-            observations: self.observations(),
-            images: self.posed.images.len(),
-            freedom: freedom.value,
-            strength: freedom.strength.name(),
-            error_log2: freedom.strength.error_log2(),
-            free: self.free,
-            softest: softest.map(|softness| Softest {
-                pixels: softness.pixels,
-                rounding: self.is_soft(),
-            }),
-            loose_points: self.held.loose_points,
-            soft_points: self.softness.map(|softness| softness.soft_points),
-            split: self.split,
-            whole: self.is_whole(),
-            answer: self.answer(),
-            seconds: self.time.as_secs_f64(),
-        };
+        let line = json!({
+            "model": self.model,
+            "notes": self.notes,
+            "points": self.posed.points.len(),
+            "min_views": self.least,
+            "observations": self.observations(),
+            "images": self.posed.images.len(),
+            "freedom": freedom.value,
+            "strength": freedom.strength.name(),
+            "error_log2": freedom.strength.error_log2(),
+            "free": self.free,
+            "softest": softest.map(|of| json!({ "pixels": of.pixels, "rounding": self.is_soft() })),
+            "loose_points": self.held.loose_points,
+            "soft_points": self.softness.map(|softness| softness.soft_points),
+            "split": self.split,
+            "whole": self.is_whole(),
+            "answer": self.answer(),
+            "seconds": self.time.as_secs_f64(),
+        });
         write_line(out, "split", None, &line)
     }
-}
-
-#[derive(Serialize)]
-struct Softest {
-    pixels: f64,
-    rounding: bool,
-}
-
-#[derive(Serialize)]
-struct Line<'a> {
-    model: &'a str,
-    notes: &'a [String],
-    points: usize,
-    min_views: usize,
-    observations: usize,
-    images: usize,
-    freedom: usize,
-    strength: &'static str,
-    error_log2: Option<i64>,
-    free: &'a [Free],
-    softest: Option<Softest>,
-    loose_points: usize,
-    soft_points: Option<usize>,
-    split: &'a Split,
-    whole: bool,
-    answer: String,
-    seconds: f64,
 }

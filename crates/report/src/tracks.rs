@@ -1,6 +1,7 @@
 //! Components of cameras in a camera-point graph, and its tracks, for people and programs.
 
 use super::{Report, counted};
+use crate::shown::row;
 use serde::Serialize;
 use std::collections::BTreeSet;
 use std::io::{self, Write};
@@ -33,10 +34,8 @@ pub fn members(component: &Component, cameras: u32) -> (Vec<u32>, usize) {
 /// Those of the writer.
 pub fn write(out: &mut impl Write, facts: &TrackFacts) -> io::Result<()> {
     write_size(out, facts)?;
-    writeln!(
-        out,
-        "  model       calibrated: rotations are known, and an observation is a direction"
-    )
+    let words = "calibrated: rotations are known, and an observation is a direction";
+    row(out, "model", words)
 }
 
 /// Writes what the tracks are.
@@ -44,12 +43,13 @@ pub fn write(out: &mut impl Write, facts: &TrackFacts) -> io::Result<()> {
 /// # Errors
 /// Those of the writer.
 pub fn write_size(out: &mut impl Write, facts: &TrackFacts) -> io::Result<()> {
-    writeln!(
+    let points = counted(facts.points, "point");
+    let images = counted(facts.min_views as usize, "image");
+    let observations = counted(facts.observations, "observation");
+    row(
         out,
-        "  tracks      {} in at least {}: {}",
-        counted(facts.points, "point"),
-        counted(facts.min_views as usize, "image"),
-        counted(facts.observations, "observation"),
+        "tracks",
+        format!("{points} in at least {images}: {observations}"),
     )
 }
 
@@ -77,16 +77,10 @@ pub fn write_components(
     if parts.len() > SHOWN {
         text.push(format!("{} more", parts.len() - SHOWN));
     }
-    if !single.is_empty() {
-        let single = single.len();
-        text.push(
-            counted(single, "observation")
-                + if single == 1 {
-                    " by itself"
-                } else {
-                    " by themselves"
-                },
-        );
+    match single.len() {
+        0 => {}
+        1 => text.push("1 observation by itself".to_owned()),
+        count => text.push(format!("{count} observations by themselves")),
     }
     let total = parts.len() + single.len();
     let colon = if text.is_empty() { "" } else { ": " };
@@ -98,10 +92,11 @@ pub fn write_components(
         0 => String::new(),
         count => format!("; in none: {} without a point", counted(count, "camera")),
     };
-    writeln!(
+    let text = text.join(", ");
+    row(
         out,
-        "  components  {total} ({strength}){colon}{}{in_none}",
-        text.join(", ")
+        "components",
+        format!("{total} ({strength}){colon}{text}{in_none}"),
     )?;
     if !report.list_components {
         return Ok(());
