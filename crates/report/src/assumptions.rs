@@ -89,10 +89,9 @@ impl Planar {
         let (rank, required) = (self.rank, self.rank_required);
         let condition = self.condition.as_ref();
         let condition = condition.map_or_else(String::new, |condition| format!(" {condition}"));
-        let answer = if self.is_determined() {
-            format!("solvable: the cameras are unique{condition}")
-        } else {
-            "not-finite-solvable: infinitely many sets of cameras".to_owned()
+        let answer = match self.is_determined() {
+            true => format!("solvable: the cameras are unique{condition}"),
+            false => "not-finite-solvable: infinitely many sets of cameras".to_owned(),
         };
         format!("{answer} (proved), rank {rank} of {required}")
     }
@@ -150,10 +149,9 @@ impl BaseLines {
             groups_not_turned: Some(groups).filter(|&groups| groups > 1),
             frames: found.frames,
             unknown: found.base_lines,
-            verdict: if found.is_determined() && groups > 1 {
-                "open"
-            } else {
-                found.value()
+            verdict: match found.is_determined() && groups > 1 {
+                true => "open",
+                false => found.value(),
             },
             rank: found.rank,
             rank_at_most: found.at_most,
@@ -176,21 +174,17 @@ impl BaseLines {
 
     /// The answer in words.
     pub fn words(&self) -> String {
-        let Self {
-            rank,
-            rank_at_most,
-            rank_required,
-            ..
-        } = self;
+        let (rank, rank_at_most, rank_required) =
+            (self.rank, self.rank_at_most, self.rank_required);
+        let condition = self.condition.as_ref();
+        let condition = condition.map_or_else(String::new, |words| format!(" {words}"));
+        let (parts, exact) = (counted(self.parts, "part"), self.parts_proved);
+        let least = if exact { "" } else { "at least " };
         let unknown = counted(self.unknown, "unknown base line");
         let frames = counted(self.frames, "frame");
         let answer = match self.verdict {
             "solvable" => format!(
-                "solvable: the positions of all cameras and points are unique{} (proved)",
-                self.condition
-                    .iter()
-                    .map(|words| format!(" {words}"))
-                    .collect::<String>()
+                "solvable: the positions of all cameras and points are unique{condition} (proved)"
             ),
             "open" if rank == rank_required => format!(
                 "open: the positions would be unique if rotations were known, but no pair of images and no \
@@ -200,21 +194,17 @@ impl BaseLines {
             "open" => format!(
                 "open: not determined at drawn positions, and counting gives no proof (rank {rank_at_most} at most)"
             ),
-            _ if rank == rank_at_most => format!(
-                "not-finite-solvable: {}{} move against each other (proved)",
-                if self.parts_proved { "" } else { "at least " },
-                counted(self.parts, "part")
-            ),
+            _ if rank == rank_at_most => {
+                format!("not-finite-solvable: {least}{parts} move against each other (proved)")
+            }
             _ => format!(
-                "not-finite-solvable (proved): {} move against each other at drawn positions, rank \
-                 {rank_at_most} at most",
-                counted(self.parts, "part")
+                "not-finite-solvable (proved): {parts} move against each other at drawn positions, rank \
+                 {rank_at_most} at most"
             ),
         };
-        let alone = if self.is_determined() {
-            &*self.alone
-        } else {
-            ""
+        let alone = match self.is_determined() {
+            true => &*self.alone,
+            false => "",
         };
         format!("{unknown}, the same in {frames}: {answer}, rank {rank} of {rank_required}{alone}")
     }
@@ -399,10 +389,10 @@ impl Scope {
         let mut planar = (asked.planar || may_hide)
             .then(|| Planar::new(&input.graph, verdict, verdict.model, watch))
             .transpose()?;
-        let hidden = is_good
-            && planar
-                .as_ref()
-                .is_some_and(|planar| !planar.is_determined());
+        let is_lost = planar
+            .as_ref()
+            .is_some_and(|planar| !planar.is_determined());
+        let hidden = is_good && is_lost;
         let (mut conditions, mut provided) = (Vec::new(), Vec::new());
         if asked.focal {
             conditions.push(FOCAL.to_owned());
@@ -457,11 +447,9 @@ impl Scope {
         if let Some(planar) = planar.as_mut().filter(|planar| planar.is_determined()) {
             planar.condition.clone_from(&condition);
         }
-        if let Some((found, _)) = base_lines
-            .as_mut()
-            .filter(|(found, _)| found.is_determined())
-        {
-            found.condition = condition;
+        match &mut base_lines {
+            Some((found, _)) if found.is_determined() => found.condition = condition,
+            _ => {}
         }
         Ok(Self {
             conditions,

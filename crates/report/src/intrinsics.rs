@@ -5,6 +5,7 @@
 
 use crate::condition;
 use crate::priors::PriorsLine;
+use crate::shown::{row, several, some};
 use serde::Serialize;
 use std::io::{self, Write};
 use viewcert::certificate::hex;
@@ -228,46 +229,34 @@ impl IntrinsicsLine {
         };
         writeln!(out, "  intrinsics  {}: {answer}", self.classes_in_words())?;
         self.write_shared(out)?;
-        let rank = if self.proved {
-            format!("{} of {} (proved)", self.rank, self.rank_required)
-        } else {
-            format!(
-                "{} at least and {} at most, of {}",
-                self.rank, self.rank_at_most, self.rank_required
-            )
+        let (rank, most, required) = (self.rank, self.rank_at_most, self.rank_required);
+        let rank = match self.proved {
+            true => format!("{rank} of {required} (proved)"),
+            false => format!("{rank} at least and {most} at most, of {required}"),
         };
-        writeln!(out, "  metric rank {rank}")?;
-        let all = self.determined + self.not_determined.len();
-        write!(
+        row(out, "metric rank", rank)?;
+        let (determined, condition) = (self.determined, self.condition());
+        let all = determined + self.not_determined.len();
+        let not = match &self.not_determined[..] {
+            [] => String::new(),
+            [only] => format!("; not of {only}"),
+            [first, .., last] => format!("; not of {first} .. {last}"),
+        };
+        let words = format!("the intrinsics of {determined} of {all}{condition}{not}");
+        row(out, "determined", words)?;
+        let sizes: Vec<usize> = self.components.iter().map(|line| line.nodes).collect();
+        let sizes = match several(&sizes, ", ") {
+            none if none.is_empty() => none,
+            sizes => format!(" of {sizes} cameras"),
+        };
+        let components = counted(self.components.len(), "component");
+        let pairs = counted(self.other_pairs, "pair");
+        row(
             out,
-            "  determined  the intrinsics of {} of {all}{}",
-            self.determined,
-            self.condition()
+            "metric part",
+            format!("{components}{sizes}; {pairs} in none"),
         )?;
-        match &self.not_determined[..] {
-            [] => {}
-            [only] => write!(out, "; not of {only}")?,
-            [first, .., last] => write!(out, "; not of {first} .. {last}")?,
-        }
-        writeln!(out)?;
-        let sizes = self.components.iter().take(LISTED);
-        let sizes: Vec<String> = sizes.map(|line| line.nodes.to_string()).collect();
-        let more = if self.components.len() > LISTED {
-            ", .."
-        } else {
-            ""
-        };
-        let sizes = match sizes.is_empty() {
-            true => String::new(),
-            false => format!(" of {}{more} cameras", sizes.join(", ")),
-        };
-        writeln!(
-            out,
-            "  metric part {}{sizes}; {} in none",
-            counted(self.components.len(), "component"),
-            counted(self.other_pairs, "pair")
-        )?;
-        writeln!(out, "  classes     SHA-256 {}", self.classes_sha256)?;
+        row(out, "classes", format!("SHA-256 {}", self.classes_sha256))?;
         for (k, line) in (1..).zip(&self.components) {
             if let Some(labels) = &line.labels {
                 writeln!(out, "  metric component {k}: {}", labels.join(" "))?;
@@ -285,20 +274,12 @@ impl IntrinsicsLine {
         if self.shared.is_empty() {
             return Ok(());
         }
-        let lines = self.shared.iter().take(LISTED);
-        let mut lines: Vec<String> = lines
-            .map(|line| {
-                let not = if line.determined { "" } else { "not " };
-                format!("{} {} ({not}determined)", line.cameras, line.class)
-            })
-            .collect();
-        if self.shared.len() > LISTED {
-            lines.push("..".into());
-        }
+        let lines = self.shared.iter().map(|line| {
+            let not = if line.determined { "" } else { "not " };
+            format!("{} {} ({not}determined)", line.cameras, line.class)
+        });
+        let lines = some(&lines.collect::<Vec<_>>(), ", ");
         let count = counted(self.shared.len(), "sensor");
-        writeln!(out, "  shared      {count}: {}", lines.join(", "))
+        row(out, "shared", format!("{count}: {lines}"))
     }
 }
-
-/// So many sizes of components, and so many sensors, are printed.
-const LISTED: usize = 8;

@@ -26,18 +26,14 @@ pub fn next(file: &File, found: &Overview) -> Next {
         _ if !found.beside.is_empty() && found.is_one_part() => of_models(file, found),
         Some(facts) if facts.pairs_used == 0 => without_pairs(file, found, facts),
         Some(facts) if facts.images_without_keypoints > 0 && found.no_model().is_some() => Next {
-            commands: vec![
-                file.colmap(
-                    "feature_extractor",
-                    &["--image_path", "images"],
-                    "extracts features",
-                ),
-                file.colmap(
-                    "exhaustive_matcher",
-                    &[],
-                    "matches them, as matches of now name others",
-                ),
-            ],
+            commands: {
+                let (images, why) = (["--image_path", "images"], "extracts features");
+                let matched = "matches them, as matches of now name others";
+                vec![
+                    file.colmap("feature_extractor", &images, why),
+                    file.colmap("exhaustive_matcher", &[], matched),
+                ]
+            },
             expect: "features and matches that belong together; then ask again".to_owned(),
             by_hand: None,
         },
@@ -54,7 +50,7 @@ pub fn overview_of(path: &str, options: &ReadOptions) -> String {
         options,
         is_model: false,
     };
-    written(&file.verify("overview", &[], &[], "").command)
+    written(&file.verify("overview", &[], "").command)
 }
 
 /// A command as it is typed in a POSIX shell.
@@ -65,12 +61,10 @@ pub(crate) fn written(command: &[String]) -> String {
 
 impl File<'_> {
     /// A command of ours about the file.
-    fn verify(&self, verb: &str, before: &[&str], after: &[&str], why: &str) -> Do {
-        let mut command: Vec<String> = vec!["verify".into(), verb.into()];
-        command.extend(before.iter().map(ToString::to_string));
-        command.push(self.path.into());
-        command.extend(after.iter().map(ToString::to_string));
-        command.extend(options_of(self.options));
+    fn verify(&self, verb: &str, after: &[&str], why: &str) -> Do {
+        let words = ["verify", verb, self.path];
+        let words = words.iter().chain(after).map(ToString::to_string);
+        let command = words.chain(options_of(self.options)).collect();
         Do {
             command,
             why: why.into(),
@@ -102,7 +96,7 @@ fn without_pairs(file: &File, found: &Overview, facts: &DatabaseFacts) -> Next {
         };
         return Next {
             commands: vec![
-                file.verify("overview", &[], &[], "forecasts with such pairs"),
+                file.verify("overview", &[], "forecasts with such pairs"),
                 file.colmap("global_mapper", &weaker, "maps with such pairs"),
             ],
             expect: format!(
@@ -164,7 +158,7 @@ fn to_match(file: &File, found: &Overview) -> Option<Next> {
     };
     options.extend(["--suggest=30", "--write", LIST]);
     let why = "writes the pairs to match, the most promising first";
-    let mut commands = vec![file.verify("advise", &[], &options, why)];
+    let mut commands = vec![file.verify("advise", &options, why)];
     if found.facts().is_some() {
         let list = ["--match_list_path", LIST];
         commands.push(file.colmap(
@@ -247,15 +241,9 @@ fn by_hand(found: &Overview) -> Option<String> {
 
 /// The models of a folder.
 fn of_models(file: &File, found: &Overview) -> Next {
-    let others = found.beside.iter().map(|(path, _)| &**path);
-    let others: Vec<&str> = others.collect();
+    let why = "says whether what two models share fixes one against the other";
     Next {
-        commands: vec![file.verify(
-            "merge",
-            &[],
-            &others[..1],
-            "says whether what two models share fixes one against the other",
-        )],
+        commands: vec![file.verify("merge", &[&found.beside[0].0], why)],
         expect: "the command that merges the two, or matches that are missing between them"
             .to_owned(),
         by_hand: None,
@@ -265,50 +253,41 @@ fn of_models(file: &File, found: &Overview) -> Next {
 /// Lists of pairs, models, and files of other pipelines.
 fn of_no_database(file: &File, found: &Overview) -> Next {
     let by_hand = by_hand(found);
-    let (commands, expect) = match (&found.tracks, found.is_one_part()) {
-        (Some(_), true) => (
-            Vec::new(),
-            "nothing to mend: its tracks hold all images together",
-        ),
-        (Some(_), false) if file.is_model => (
-            vec![file.verify(
-                "split",
-                &[],
-                &["parts/"],
-                "writes each part as a model of its own",
-            )],
-            "models each of which is what its tracks determine",
-        ),
-        (Some(_), false) => (
-            vec![file.verify(
-                "export",
-                &[],
-                &["parts/", "--tracks"],
-                "writes the images of each part",
-            )],
-            "lists of images, each of which a mapper places right by itself",
-        ),
-        (None, true) => (
-            vec![file.verify(
-                "advise",
-                &[],
-                &["--model", "calibrated", "--weak"],
-                "says without which pairs something falls apart",
-            )],
-            "the pairs that everything hangs on: match their images with more neighbours",
-        ),
-        (None, false) => (
-            vec![file.verify(
-                "export",
-                &[],
-                &["parts/", "--model", "calibrated"],
-                "writes the images of each part",
-            )],
-            "lists of images, each of which is determined by itself",
-        ),
-    };
+    let images = "writes the images of each part";
+    let (verb, options, why, expect): (_, &[&str], _, _) =
+        match (&found.tracks, found.is_one_part()) {
+            (Some(_), true) => {
+                let expect = "nothing to mend: its tracks hold all images together";
+                ("", &[], "", expect)
+            }
+            (Some(_), false) if file.is_model => {
+                let why = "writes each part as a model of its own";
+                let expect = "models each of which is what its tracks determine";
+                ("split", &["parts/"], why, expect)
+            }
+            (Some(_), false) => {
+                let expect = "lists of images, each of which a mapper places right by itself";
+                ("export", &["parts/", "--tracks"], images, expect)
+            }
+            (None, true) => {
+                let why = "says without which pairs something falls apart";
+                let expect =
+                    "the pairs that everything hangs on: match their images with more neighbours";
+                ("advise", &["--model", "calibrated", "--weak"], why, expect)
+            }
+            (None, false) => {
+                let expect = "lists of images, each of which is determined by itself";
+                (
+                    "export",
+                    &["parts/", "--model", "calibrated"],
+                    images,
+                    expect,
+                )
+            }
+        };
+    let command = (!verb.is_empty()).then(|| file.verify(verb, options, why));
     Next {
-        commands,
+        commands: Vec::from_iter(command),
         by_hand,
         expect: expect.to_owned(),
     }
@@ -324,32 +303,24 @@ fn options_of(read: &ReadOptions) -> Vec<String> {
     };
     say("--format", read.format.map(|format| format.to_string()));
     say("--variable", read.variable.clone());
-    say(
-        "--pipeline",
-        read.pipeline.map(|pipeline| pipeline.to_string()),
-    );
-    say(
-        "--min-inliers",
-        read.min_inliers.map(|count| count.to_string()),
-    );
+    let pipeline = read.pipeline.map(|pipeline| pipeline.to_string());
+    say("--pipeline", pipeline);
+    let least = read.min_inliers.map(|count| count.to_string());
+    say("--min-inliers", least);
     let list = &read.list;
     say("--columns", list.columns.as_ref().map(ToString::to_string));
-    say(
-        "--min-weight",
-        list.min_weight.as_ref().map(ToString::to_string),
-    );
+    let least = list.min_weight.as_ref().map(ToString::to_string);
+    say("--min-weight", least);
     let default = TrackOptions::default();
     let tracks = read.tracks.unwrap_or_default();
     let other = |value: u32, usual: u32| (value != usual).then(|| value.to_string());
     say("--min-views", other(tracks.min_views, default.min_views));
     say("--max-spread", other(tracks.max_spread, default.max_spread));
-    for (option, is_said) in [
+    let flags = [
         ("--skip-loops", list.skip_loops),
         ("--no-rigs", !tracks.rigs),
-    ] {
-        if is_said {
-            words.push(option.to_owned());
-        }
-    }
+    ];
+    let flags = flags.iter().filter(|(_, is_said)| *is_said);
+    words.extend(flags.map(|(option, _)| (*option).to_owned()));
     words
 }

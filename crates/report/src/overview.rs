@@ -11,7 +11,7 @@ use super::{
 use crate::advice::{joints as write_joints, photograph, suggestions as write_suggestions};
 use crate::contradictions::Contradicted;
 use crate::intrinsics::IntrinsicsLine;
-use crate::shown::{notes, several, time};
+use crate::shown::{notes, row, several, time};
 use serde::Serialize;
 use serde_json::json;
 use std::cell::OnceCell;
@@ -191,10 +191,8 @@ impl Parts {
         images.sort_by_key(|part| std::cmp::Reverse(part.len()));
         let mut inside: Vec<u32> = images.iter().flatten().copied().collect();
         inside.sort_unstable();
-        let outside = wanted.images.iter().copied();
-        let outside: Vec<u32> = outside
-            .filter(|v| inside.binary_search(v).is_err())
-            .collect();
+        let mut outside = wanted.images.clone();
+        outside.retain(|v| inside.binary_search(v).is_err());
         let count = |some: &[u32]| part_names::images(report.input, some);
         Self {
             whole,
@@ -309,20 +307,17 @@ impl Overview<'_> {
 
     /// What makes the promise doubtful, the heaviest first. What else contradicts the pairs belongs in front.
     pub(crate) fn doubts(&self) -> Vec<Doubt> {
-        let refutes = |words: String| Doubt {
-            words,
-            refutes: true,
-        };
+        let doubt = |refutes| move |words| Doubt { words, refutes };
         let base_lines = self.without_base_line.iter().map(WithoutBaseLine::words);
         let guessed = self.guessed();
         let guessed = (guessed > 0).then(|| {
+            let (have, own) = match guessed {
+                1 => ("1 image has".to_owned(), "its own"),
+                count => (format!("{count} images have"), "their own"),
+            };
             format!(
-                "{} a guessed focal length of {}, which mappers rarely find: they place such images wrong silently",
-                match guessed {
-                    1 => "1 image has".to_owned(),
-                    count => format!("{count} images have"),
-                },
-                if guessed == 1 { "its own" } else { "their own" },
+                "{have} a guessed focal length of {own}, which mappers rarely find: they place such images wrong \
+                 silently"
             )
         });
         let axes = self.facts().is_some_and(|facts| facts.axes_parallel);
@@ -339,18 +334,12 @@ impl Overview<'_> {
         });
         let off = self.contradictions.as_ref();
         let off = off.and_then(Contradicted::doubt).into_iter();
-        let refuting = off
-            .chain(base_lines)
-            .chain(guessed)
-            .chain(axes)
-            .chain(turns);
+        let others = guessed.into_iter().chain(axes).chain(turns);
+        let refuting = off.chain(base_lines).chain(others).map(doubt(true));
         let lesser = bottlenecks::warnings(&self.narrow).into_iter();
         let lesser = lesser.chain(bottlenecks::few(&self.narrow));
-        let lesser = lesser.chain(self.unchecked()).map(|words| Doubt {
-            words,
-            refutes: false,
-        });
-        refuting.map(refutes).chain(lesser).collect()
+        let lesser = lesser.chain(self.unchecked()).map(doubt(false));
+        refuting.chain(lesser).collect()
     }
 
     /// The pairs that no cycle holds: a wrong one contradicts nothing. Frames may check pairs, and what alone
@@ -412,11 +401,8 @@ impl Overview<'_> {
         let [pairs, _] = self.pairs.as_ref()?;
         self.facts().filter(|facts| facts.pairs_used == 0)?;
         let matching = pairs.input.matching.as_ref()?;
-        let mut known: Vec<_> = matching
-            .others
-            .iter()
-            .filter(|pair| pair.inliers > 0)
-            .collect();
+        let known = matching.others.iter().filter(|pair| pair.inliers > 0);
+        let mut known: Vec<_> = known.collect();
         known.sort_by_key(|pair| std::cmp::Reverse(pair.inliers));
         let mut parts = UnionFind::new(pairs.input.graph.nodes());
         let joining = known.into_iter().filter(|pair| {
@@ -424,10 +410,8 @@ impl Overview<'_> {
             parts.union(a as usize, b as usize)
         });
         let least = self.facts()?.min_inliers;
-        joining
-            .map(|pair| pair.inliers)
-            .last()
-            .filter(|&count| count < least)
+        let count = joining.map(|pair| pair.inliers).last();
+        count.filter(|&count| count < least)
     }
 
     /// Whether they determine all images that have a pair.
@@ -445,10 +429,10 @@ impl Overview<'_> {
         let mut outside = vec![true; self.wanted.all as usize];
         for image in self
             .parts()
-            .iter()
-            .flat_map(|parts| parts.images.iter().flatten())
+            .into_iter()
+            .flat_map(|parts| parts.images.concat())
         {
-            outside[*image as usize] = false;
+            outside[image as usize] = false;
         }
         let all = (0..).zip(outside);
         all.filter_map(|(image, outside)| outside.then_some(image))
@@ -549,11 +533,8 @@ impl Overview<'_> {
         });
         let first: Vec<&Suggestion> = first.take(GAPS).collect();
         if !first.is_empty() {
-            writeln!(
-                out,
-                "  suggested   to match (the first for each gap; each would join components if the images \
-                 really overlap):"
-            )?;
+            let words = "to match (the first for each gap; each would join components if the images really overlap):";
+            row(out, "suggested", words)?;
             write_suggestions(out, first)?;
         }
         match &self.joints.photograph {
@@ -644,12 +625,10 @@ impl WithoutBaseLine {
             [(self.pairs, "pair"), (sizes.iter().sum(), "image")].map(|(n, of)| counted(n, of));
         let configurations = self.configurations.join(", ");
         let part = self.part;
+        let groups = format!("between groups of {} images ", several(&sizes, " + "));
         let (between, nothing) = match sizes[0] {
-            1 => (String::new(), "where the cameras are"),
-            _ => (
-                format!("between groups of {} images ", several(&sizes, " + ")),
-                "how the groups lie to each other",
-            ),
+            1 => ("", "where the cameras are"),
+            _ => (&*groups, "how the groups lie to each other"),
         };
         format!(
             "part {part}, {images}: {between}no pair has a base line that shows ({pairs}: {configurations}), \
