@@ -273,7 +273,7 @@ impl<'a> Two<'a> {
         let is_other = |[a, b]: [&Image; 2]| a.id != b.id || a.points.len() != b.points.len();
         let mut enough = self.images().filter(|_| self.both.len() >= MERGER);
         let other = enough.find(|(_, both)| is_other(*both));
-        let is_renamed = |name: &Box<str>, id| names.get(id).is_some_and(|other| *other != name);
+        let is_renamed = |name: &str, id| names.get(id).is_some_and(|other| ***other != *name);
         let mut all = self.models[0].images.iter();
         let renamed = all.find(|image| is_renamed(&image.name, &image.id));
         match (other, renamed) {

@@ -1,7 +1,6 @@
 //! Lists that are cut, and the first lines of reports.
 
 use crate::size_of;
-use crate::text::seconds;
 use std::fmt::Display;
 use std::io::{self, Write};
 use std::time::Duration;
@@ -49,7 +48,13 @@ pub(crate) fn row(out: &mut impl Write, title: &str, words: impl Display) -> io:
 
 /// Says how long it took, as the last line.
 pub(crate) fn time(out: &mut impl Write, time: Duration) -> io::Result<()> {
-    row(out, "time", seconds(time.as_micros()))
+    let micros = time.as_micros();
+    let words = match micros {
+        0..10_000 => format!("{}.{} ms", micros / 1000, micros % 1000 / 100),
+        10_000..10_000_000 => format!("{} ms", micros / 1000),
+        _ => format!("{} s", micros / 1_000_000),
+    };
+    row(out, "time", words)
 }
 
 /// Writes the lines that say what graph it is and how it was read.

@@ -2,7 +2,7 @@
 
 use super::{Report, condition, counted, database, size_with_parts, tracks};
 use crate::assumptions::Scope;
-use crate::shown::{notes, row};
+use crate::shown::{notes, row, time};
 use std::io::{self, Write};
 use viewcert::Model;
 use viewcert::decide::Strength;
@@ -84,7 +84,7 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
     if let Some(here) = &report.here {
         here.write_text(out, report.list_components)?;
     }
-    row(out, "time", seconds(report.time.as_micros()))
+    time(out, report.time)
 }
 
 /// Writes the components of a verdict.
@@ -281,13 +281,4 @@ pub(super) fn several<'v>(
     let falls_apart = verdict.value == Value::NotFiniteSolvable;
     let count = component.solutions.as_ref().filter(|_| falls_apart)?;
     (!count.is_one()).then_some(count)
-}
-
-/// A time for people.
-pub(super) fn seconds(micros: u128) -> String {
-    match micros {
-        0..10_000 => format!("{}.{} ms", micros / 1000, micros % 1000 / 100),
-        10_000..10_000_000 => format!("{} ms", micros / 1000),
-        _ => format!("{} s", micros / 1_000_000),
-    }
 }
