@@ -25,6 +25,8 @@ pub enum Reason {
         what: String,
         /// Its size in bytes.
         needs: u64,
+        /// What other large things take, in bytes.
+        held: u64,
         /// The limit, in bytes.
         limit: u64,
     },
@@ -57,11 +59,20 @@ impl std::error::Error for Stopped {}
 impl fmt::Display for Stopped {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match &self.reason {
-            Reason::TooLarge { what, needs, limit } => {
+            Reason::TooLarge {
+                what,
+                needs,
+                held,
+                limit,
+            } => {
                 let (needs, limit) = (Bytes(*needs), Bytes(*limit));
+                let beside = match held {
+                    0 => String::new(),
+                    _ => format!(" beside {} in use", Bytes(*held)),
+                };
                 write!(
                     f,
-                    "{}: too large: {what} would take {needs} of memory, and the limit is {limit}",
+                    "{}: too large: {what} would take {needs} of memory{beside}, and the limit is {limit}",
                     self.stage
                 )?;
                 return self.write_so_far(f);

@@ -210,6 +210,7 @@ impl Reservation {
                 reason: Reason::TooLarge {
                     what: what.to_string(),
                     needs: bytes,
+                    held: others,
                     limit,
                 },
                 stage: task.stage,
@@ -318,6 +319,7 @@ mod tests {
         let reason = Reason::TooLarge {
             what: "two".into(),
             needs: 401,
+            held: 600,
             limit: 1000,
         };
         assert_eq!(refused.reason, reason);
