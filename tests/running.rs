@@ -128,7 +128,7 @@ fn limits_that_mean_nothing_are_refused() {
 fn a_memory_limit_is_predicted() {
     let folder = tempfile::tempdir().unwrap();
     let graph = two_cycles(folder.path(), 30_000);
-    // Nine more cameras on one of it, each paired with the two before: ten that are one body.
+    // It has six triangles. Nine more cameras on one of it, each paired with the two before: ten that are one body.
     let mut text = std::fs::read_to_string(&graph).unwrap();
     text.extend((30_000..30_009).map(|v| format!("{} {v}\n", v - 1)));
     text.extend((30_001..30_009).map(|v| format!("{} {v}\n", v - 2)));
@@ -139,7 +139,7 @@ fn a_memory_limit_is_predicted() {
     assert!(run.out.contains("5 cameras, 6 pairs"), "{}", run.out);
     assert_eq!(run.err.lines().count(), 1, "{}", run.err);
     let so_far =
-        "so far: 1 part of three cameras and more finite solvable (proved), the largest of 10";
+        "so far: 7 parts of three cameras and more finite solvable (proved), the largest of 10";
     for part in [&graph, "core of ", "Lambda (", "the limit is 1 GiB", so_far] {
         assert!(run.err.contains(part), "{part}: {}", run.err);
     }
