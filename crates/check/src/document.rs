@@ -5,6 +5,7 @@ pub(crate) mod own_frame;
 pub(crate) mod solutions;
 
 use crate::json::{Big, Optional, Value, kinds, objects};
+use crate::question::Question;
 use base_lines::{BaseLines, BaseLinesClaim};
 use own_frame::{OwnFrame, OwnFrameClaim};
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
@@ -79,35 +80,6 @@ impl Value for Version {
                 "version {other} is unknown to this program, which checks version 3"
             ))),
         }
-    }
-}
-
-/// The member `question`: what a certificate is about, and which members it has.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Question {
-    /// Which cameras generic ones determine.
-    Generic,
-    /// Which are determined at given cameras (section 14).
-    AtCameras,
-    /// Which intrinsics are determined (section 15).
-    Intrinsics,
-    /// How many measured motions contradict each other (docs/contradictions.md).
-    Contradictions,
-}
-
-impl Value for Question {
-    fn read<'de, D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        Ok(match String::read(from)?.as_str() {
-            "generic" => Self::Generic,
-            "at-cameras" => Self::AtCameras,
-            "intrinsics" => Self::Intrinsics,
-            "contradictions" => Self::Contradictions,
-            other => {
-                return Err(D::Error::custom(format!(
-                    "`{other}` is not a question: `generic`, `at-cameras`, `intrinsics` or `contradictions`"
-                )));
-            }
-        })
     }
 }
 

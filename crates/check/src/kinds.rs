@@ -2,10 +2,11 @@
 
 use crate::at_cameras::{self, VerifiedHere};
 use crate::contradictions::{self, Database, VerifiedContradictions};
-use crate::document::{Document, GraphName, Model, Question, Version};
+use crate::document::{Document, GraphName, Model, Version};
 use crate::intrinsics::{self, VerifiedIntrinsics};
 use crate::json::{Name, Strict, parse};
 use crate::limits::Meter;
+use crate::question::Question;
 use crate::rejection::{Checked, ensure};
 use crate::{Failure, Graph, Limits, Strength, Unreadable, Verified, check_generic};
 use serde::de::{Deserializer, IgnoredAny, MapAccess, Visitor};

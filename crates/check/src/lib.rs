@@ -10,7 +10,7 @@
 //!
 //! | what must hold | section | theory | file |
 //! |---|---|---|---|
-//! | the text is of the grammar | 1, 3 | | `document`, by the strict reader in `json`; `kinds` knows which |
+//! | the text is of the grammar | 1, 3 | | `document`, by the strict reader in `json`; `kinds` and `question` know which |
 //! | the graph has the hash | 2, 3 | | `graph`, with the files that hold one |
 //! | known parts are those that are given | 3 | 4.14 | `parts` |
 //! | displacements are well formed, and those that are given | 3 | 13.16 | `displacements` |
@@ -70,6 +70,7 @@ mod pivots;
 mod plane_flow;
 mod plane_minor;
 pub mod program;
+mod question;
 mod rejection;
 mod setting;
 mod solutions;
@@ -81,13 +82,14 @@ pub use base_lines::BaseLines;
 pub use claim::{Strength, Verdict, Verified};
 pub use contradictions::{AtLeast, Database, Row, VerifiedContradictions};
 pub use displacements::Displacements;
-pub use document::{Model, Question};
+pub use document::Model;
 pub use expected::{Expected, VERDICTS};
 pub use graph::Graph;
 pub use intrinsics::VerifiedIntrinsics;
 pub use kinds::{Answer, Certificate};
 pub use limits::Limits;
 pub use own_frame::OwnFrame;
+pub use question::Question;
 pub use rejection::{Failure, Rejection, TooLarge, Unreadable};
 pub use solutions::Count;
 

@@ -1,10 +1,11 @@
 //! The JSON text of a certificate at given cameras (section 14 of the specification).
 
 use crate::document::{
-    Body, ComponentsClaim, Format, GraphName, Members, Model, Pair, Question, RankClaim,
-    VerdictClaim, Version,
+    Body, ComponentsClaim, Format, GraphName, Members, Model, Pair, RankClaim, VerdictClaim,
+    Version,
 };
 use crate::json::{Big, objects};
+use crate::question::Question;
 
 objects! {
     Document {

@@ -1,7 +1,8 @@
 //! The JSON text of a certificate of contradictions (docs/contradictions.md, sections 2 to 4).
 
-use crate::document::{Format, Question, Version};
+use crate::document::{Format, Version};
 use crate::json::objects;
+use crate::question::Question;
 
 objects! {
     Document {

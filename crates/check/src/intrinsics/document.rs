@@ -1,7 +1,8 @@
 //! The JSON text of a certificate of intrinsics (section 15 of the specification).
 
-use crate::document::{Body, Format, GraphName, Question, Version};
+use crate::document::{Body, Format, GraphName, Version};
 use crate::json::{Big, Optional, objects};
+use crate::question::Question;
 
 objects! {
     Document {
