@@ -184,8 +184,12 @@ fn rule_all<T, W: Write>(
     Ok(worst.max(if refuted > 0 { NOT } else { GOOD }))
 }
 
-/// The cameras as they were read, and the exact answer in one model.
-type Exact = (NamedGraph, Centres, Here);
+/// The exact answer in one model, and the cameras as they were read.
+struct Exact {
+    input: NamedGraph,
+    centres: Centres,
+    here: Here,
+}
 
 /// Rules on what floating point found at the cameras of a file, or says what is so where there is no table.
 fn at_given_cameras(session: &Session, arguments: &AuditArguments, path: &Path) -> Result<u8> {
@@ -208,15 +212,19 @@ fn at_given_cameras(session: &Session, arguments: &AuditArguments, path: &Path) 
     let each = |out: &mut _, input: &NamedGraph, _| {
         let mut answers: Vec<Exact> = Vec::new();
         for &model in &models {
-            if answers.iter().all(|(.., here)| here.model != model) {
+            if answers.iter().all(|answer| answer.here.model != model) {
                 answers.push(exact(session, input, path, model)?);
             }
         }
         if !json {
-            head(out, &answers[0].0)?;
+            head(out, &answers[0].input)?;
         }
         let Some((table, rows)) = &table else {
-            let (input, centres, here) = &answers[0];
+            let Exact {
+                input,
+                centres,
+                here,
+            } = &answers[0];
             let at = (centres, here);
             let enclosed =
                 |watch: &Watch| enclose(Matrix::Plain, &input.graph, at, (None, None), watch);
@@ -234,8 +242,12 @@ fn at_given_cameras(session: &Session, arguments: &AuditArguments, path: &Path) 
             lines,
             out,
             &mut |out, number, of| {
-                let at = answers.iter().find(|at| at.2.model == of.claim.model);
-                let (input, centres, here) = at.context("every model is decided")?;
+                let at = answers.iter().find(|at| at.here.model == of.claim.model);
+                let Exact {
+                    input,
+                    centres,
+                    here,
+                } = at.context("every model is decided")?;
                 let at = (centres, here);
                 let found = session.watched(|watch| at_cameras::ruled(of, &input.graph, at, watch));
                 let (ruling, sigma) = found.map_err(not_enclosed)?;
@@ -263,7 +275,11 @@ fn exact(session: &Session, input: &NamedGraph, path: &Path, model: Model) -> Re
     let input = noted(input, cameras.notes).into_owned();
     let here =
         session.watched(|watch| crate::at_cameras::decide(&input, &cameras.centres, watch))?;
-    Ok((input, cameras.centres, here))
+    Ok(Exact {
+        input,
+        centres: cameras.centres,
+        here,
+    })
 }
 
 /// Why a singular value is not enclosed.

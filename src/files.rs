@@ -57,7 +57,9 @@ pub(super) fn overview(session: &Session, arguments: &OverviewArguments) -> Resu
         ensure!(arguments.inputs.len() == 1, reason);
     }
     let mut out = outputs::text(&[page]);
-    let asked = overview::Asked(arguments.input.reading());
+    let asked = overview::Asked {
+        reading: arguments.input.reading(),
+    };
     let each = |out: &mut _, path: &Path, read: Result<Input, ReadError>, start| {
         asked.of_read(session, (path, read, start), |found| {
             if let Some(file) = page {

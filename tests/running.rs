@@ -57,7 +57,7 @@ fn house() -> String {
 #[test]
 fn a_time_limit_is_for_each_graph_and_says_where() {
     let folder = tempfile::tempdir().unwrap();
-    let graph = two_cycles(folder.path(), 6000);
+    let graph = two_cycles(folder.path(), 14_000);
     let (run, time) = timed(&[&graph, "--time-limit", "1s"]);
     assert_eq!((run.code, &*run.out), (3, ""), "{}", run.err);
     assert!(time >= Duration::from_secs(1) && time < LATE, "{time:?}");
@@ -225,7 +225,7 @@ fn names(folder: &Path) -> Vec<String> {
 #[test]
 fn a_signal_ends_the_run_and_leaves_nothing() {
     let folder = tempfile::tempdir().unwrap();
-    let graph = two_cycles(folder.path(), 6000);
+    let graph = two_cycles(folder.path(), 14_000);
     let target = tempfile::tempdir().unwrap();
     let certificate = target.path().join("certificate.json");
     for (signal, code) in [("-INT", 130), ("-TERM", 143)] {
@@ -273,7 +273,7 @@ fn without_a_terminal_nothing_is_shown() {
 #[ignore = "needs script"]
 fn on_a_terminal_the_stage_is_shown() {
     let folder = tempfile::tempdir().unwrap();
-    let graph = two_cycles(folder.path(), 6000);
+    let graph = two_cycles(folder.path(), 14_000);
     let command = format!(
         "stty cols 100; {} {graph} --time-limit 4s",
         env!("CARGO_BIN_EXE_verify")

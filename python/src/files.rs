@@ -33,7 +33,9 @@ pub(crate) fn overview<'py>(
     reading: Reading,
     kind: String,
 ) -> PyResult<Bound<'py, PyBytes>> {
-    let wish = viewcert_ask::overview::Asked(reading.options()?);
+    let wish = viewcert_ask::overview::Asked {
+        reading: reading.options()?,
+    };
     let found = asked(py, move |session| {
         wish.of(session, &path, |found| {
             let mut out = Vec::new();

@@ -228,6 +228,8 @@ fn fixed(bodies: &[Body], images: u32, seed: u64, watch: Watch) -> Result<Vec<Fi
     };
     let components = verdict.components.iter();
     let mut fixed: Vec<Fixed> = components.map(|part| set(&part.nodes())).collect();
+    let held: usize = fixed.iter().map(|set| set.parts.len()).sum();
+    assert_eq!(held, bodies.len(), "every body lies in one component");
     fixed.sort_by_key(|set| (std::cmp::Reverse(set.images), set.parts.clone()));
     Ok(fixed)
 }

@@ -79,13 +79,7 @@ impl Merge {
 
     /// What is free, in words.
     pub fn free(&self) -> &'static str {
-        match self.freedom {
-            Some(0) => "nothing",
-            Some(SCALE) => "relative scale",
-            Some(RIGID) => "rotation and translation",
-            Some(_) => "everything: rotation, translation and relative scale",
-            None => "translation and scale, or a part of them",
-        }
+        free(self.freedom)
     }
 
     /// Whether nothing that was compared contradicts something else.
@@ -449,4 +443,29 @@ fn are_connected(input: &NamedGraph, parts: &[Vec<u32>; 2]) -> bool {
         });
     }
     sets.find(parts[0][0] as usize) == sets.find(parts[1][0] as usize)
+}
+
+/// Degrees of freedom in words.
+fn free(freedom: Option<usize>) -> &'static str {
+    match freedom {
+        Some(0) => "nothing",
+        Some(SCALE) => "relative scale",
+        Some(RIGID) => "rotation and translation",
+        Some(_) => "everything: rotation, translation and relative scale",
+        None => "translation and scale, or a part of them",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_free_has_words() {
+        assert_eq!(free(Some(0)), "nothing");
+        assert_eq!(free(Some(1)), "relative scale");
+        assert!(free(Some(6)).starts_with("rotation and translation"));
+        assert!(free(Some(7)).contains("rotation"));
+        assert!(free(None).contains("scale"));
+    }
 }

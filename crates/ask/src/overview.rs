@@ -32,10 +32,10 @@ use viewcert_report::overview::{Next, Overview, Wanted};
 use viewcert_session::Session;
 
 /// What is asked of inputs, whoever asks.
-pub struct Asked(
+pub struct Asked {
     /// How inputs are read.
-    pub HowRead,
-);
+    pub reading: HowRead,
+}
 
 impl Asked {
     /// Decides everything about an input, and calls `say` with what was found. A file with several graphs is
@@ -72,13 +72,13 @@ impl Asked {
     /// The pairs of every graph of a file, and the database that they are of.
     #[must_use]
     pub fn inputs(&self, path: &Path) -> Inputs {
-        match open_database(path, &self.0.pairs) {
+        match open_database(path, &self.reading.pairs) {
             Some(database) => {
                 let opened = database.map(|database| (database.pairs(), Some(database)));
                 Box::new(std::iter::once(opened))
             }
             None => {
-                let graphs = read_graphs(path, &self.0.pairs);
+                let graphs = read_graphs(path, &self.reading.pairs);
                 Box::new(graphs.map(|graph| graph.map(|graph| (graph, None))))
             }
         }
@@ -167,7 +167,7 @@ fn source(
         Some(database) => read_tracks(session, asked, path, database)?,
     };
     if tracks.is_err() {
-        asked.0.ensure_pairs(path)?;
+        asked.reading.ensure_pairs(path)?;
     }
     Ok(Source {
         pairs: Some(pairs),
@@ -181,7 +181,7 @@ fn source(
 /// The cameras and points of a model, or of another file that has no more.
 fn tracks_in(session: &Session, asked: &Asked, path: &Path) -> Result<NamedGraph> {
     session.reading(path);
-    let tracks = read_graphs(path, &asked.0.tracks).next();
+    let tracks = read_graphs(path, &asked.reading.tracks).next();
     session.hide();
     Ok(tracks.with_context(|| format!("{}: no graph", path.display()))??)
 }
@@ -216,7 +216,7 @@ fn read_tracks(
     path: &Path,
     database: &Database,
 ) -> Result<Result<NamedGraph, String>> {
-    let options = asked.0.tracks.tracks.unwrap_or_default();
+    let options = asked.reading.tracks.tracks.unwrap_or_default();
     session.reading(path);
     let tracks = database.tracks(options);
     session.hide();
@@ -300,7 +300,7 @@ fn overview<T>(
     let of_tracks = tracks.map(|(input, verdict)| Tracks {
         input,
         verdict,
-        options: wish.0.tracks.tracks.unwrap_or_default(),
+        options: wish.reading.tracks.tracks.unwrap_or_default(),
     });
     let forecast = session.watched(|watch| foreseen(database, images, of_tracks, watch.clone()));
     let (mappers, narrow) = forecast?;
@@ -366,8 +366,8 @@ fn overview<T>(
     let file = File {
         path: &source.path.display().to_string(),
         options: match found.tracks {
-            Some(_) => &wish.0.tracks,
-            None => &wish.0.pairs,
+            Some(_) => &wish.reading.tracks,
+            None => &wish.reading.pairs,
         },
         is_model: source.path.is_dir(),
     };

@@ -254,38 +254,34 @@ fn of_models(file: &File, found: &Overview) -> Next {
 fn of_no_database(file: &File, found: &Overview) -> Next {
     let by_hand = by_hand(found);
     let images = "writes the images of each part";
-    let (verb, options, why, expect): (_, &[&str], _, _) =
-        match (&found.tracks, found.is_one_part()) {
-            (Some(_), true) => {
-                let expect = "nothing to mend: its tracks hold all images together";
-                ("", &[], "", expect)
-            }
-            (Some(_), false) if file.is_model => {
-                let why = "writes each part as a model of its own";
-                let expect = "models each of which is what its tracks determine";
-                ("split", &["parts/"], why, expect)
-            }
-            (Some(_), false) => {
-                let expect = "lists of images, each of which a mapper places right by itself";
-                ("export", &["parts/", "--tracks"], images, expect)
-            }
-            (None, true) => {
-                let why = "says without which pairs something falls apart";
-                let expect =
-                    "the pairs that everything hangs on: match their images with more neighbours";
-                ("advise", &["--model", "calibrated", "--weak"], why, expect)
-            }
-            (None, false) => {
-                let expect = "lists of images, each of which is determined by itself";
-                (
-                    "export",
-                    &["parts/", "--model", "calibrated"],
-                    images,
-                    expect,
-                )
-            }
-        };
-    let command = (!verb.is_empty()).then(|| file.verify(verb, options, why));
+    let (command, expect) = match (&found.tracks, found.is_one_part()) {
+        (Some(_), true) => {
+            let expect = "nothing to mend: its tracks hold all images together";
+            (None, expect)
+        }
+        (Some(_), false) if file.is_model => {
+            let why = "writes each part as a model of its own";
+            let expect = "models each of which is what its tracks determine";
+            (Some(file.verify("split", &["parts/"], why)), expect)
+        }
+        (Some(_), false) => {
+            let expect = "lists of images, each of which a mapper places right by itself";
+            let command = file.verify("export", &["parts/", "--tracks"], images);
+            (Some(command), expect)
+        }
+        (None, true) => {
+            let why = "says without which pairs something falls apart";
+            let expect =
+                "the pairs that everything hangs on: match their images with more neighbours";
+            let command = file.verify("advise", &["--model", "calibrated", "--weak"], why);
+            (Some(command), expect)
+        }
+        (None, false) => {
+            let expect = "lists of images, each of which is determined by itself";
+            let command = file.verify("export", &["parts/", "--model", "calibrated"], images);
+            (Some(command), expect)
+        }
+    };
     Next {
         commands: Vec::from_iter(command),
         by_hand,

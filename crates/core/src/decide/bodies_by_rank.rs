@@ -50,6 +50,7 @@ pub(super) fn extend(
         && asked.arithmetic == Arithmetic::Prime
         && asked.solutions != CountSolutions::Full;
     let mut size = REGION;
+    // After the largest regions one dense region is tried.
     while is_wanted && size <= 2 * LARGEST_REGION && may_be_large(&contraction) {
         let assembly = Assembly::new(graph, &contraction);
         let large = large_pieces(&assembly);
@@ -107,8 +108,9 @@ pub(super) fn regions(
         in_core[v as usize] = true;
     }
     let (region_of, count) = partition(graph, &in_core, size);
-    let region_of: Vec<Option<u32>> = region_of.into_iter().map(Some).collect();
-    members_of(contraction, pieces, &in_core, &region_of, count)
+    let region_of = region_of.into_iter().zip(in_core);
+    let region_of: Vec<_> = region_of.map(|(k, is)| is.then_some(k)).collect();
+    members_of(contraction, pieces, &region_of, count)
 }
 
 /// One region that is dense, if there is one, of the largest piece.
@@ -122,14 +124,13 @@ pub(super) fn dense_region(
         return Vec::new();
     };
     let region_of: Vec<Option<u32>> = inside.iter().map(|&is| is.then_some(0)).collect();
-    members_of(contraction, pieces, &inside, &region_of, 1)
+    members_of(contraction, pieces, &region_of, 1)
 }
 
-/// Members of pieces by the regions that nodes are in, if they are in any.
+/// Members of pieces by the regions that nodes are in, if they are in any: edges of loose members end in core nodes.
 fn members_of(
     contraction: &Contraction,
     pieces: &[(Members, Core)],
-    in_core: &[bool],
     region_of: &[Option<u32>],
     count: usize,
 ) -> Vec<Members> {
@@ -144,7 +145,6 @@ fn members_of(
         }
         for &body in &members.bodies {
             let nodes = contraction.bodies[body as usize].nodes.iter();
-            let nodes = nodes.filter(|&&v| in_core[v as usize]);
             let mut met: Vec<u32> = nodes.filter_map(|&v| region_of[v as usize]).collect();
             met.sort_unstable();
             for same in met.chunk_by(|a, b| a == b).filter(|same| same.len() >= 2) {

@@ -39,12 +39,10 @@ pub(super) fn grow(graph: &Graph, core_nodes: &[u32]) -> Option<Vec<bool>> {
         if nodes.len() == most {
             return None;
         }
-        for w in neighbours
-            .neighbours(v)
-            .iter()
-            .copied()
-            .filter(|&w| !inside[w as usize])
-        {
+        for &w in neighbours.neighbours(v) {
+            if inside[w as usize] {
+                continue;
+            }
             met += 1;
             among[w as usize] += 1;
             next.push((among[w as usize], Reverse(met), w));
@@ -58,20 +56,11 @@ pub(super) fn grow(graph: &Graph, core_nodes: &[u32]) -> Option<Vec<bool>> {
 fn prune(neighbours: &Adjacency, nodes: &[u32], inside: &mut [bool]) {
     let mut left = nodes.to_vec();
     while let Some(v) = left.pop() {
-        let mut among = neighbours
-            .neighbours(v)
-            .iter()
-            .copied()
-            .filter(|&w| inside[w as usize]);
-        if inside[v as usize] && among.by_ref().take(2).count() < 2 {
+        let among = neighbours.neighbours(v).iter();
+        let among = among.filter(|&&w| inside[w as usize]).take(2).count();
+        if inside[v as usize] && among < 2 {
             inside[v as usize] = false;
-            left.extend(
-                neighbours
-                    .neighbours(v)
-                    .iter()
-                    .copied()
-                    .filter(|&w| inside[w as usize]),
-            );
+            left.extend(neighbours.neighbours(v));
         }
     }
 }
