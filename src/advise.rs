@@ -1,7 +1,6 @@
 //! `verify advise GRAPH...`: what follows from a verdict, and what to do about it
 //! (docs/reconstruction.md).
 
-use super::intrinsics::IntrinsicsArguments;
 use super::plan::Plan;
 use super::question::{GRAPHS, QuestionArguments};
 use anyhow::Result;
@@ -30,8 +29,6 @@ pub(super) struct AdviseArguments {
     write: Option<PathBuf>,
     #[command(flatten)]
     question: QuestionArguments,
-    #[command(flatten)]
-    intrinsics: IntrinsicsArguments,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -50,7 +47,6 @@ impl AdviseArguments {
     /// By name, what does not go together.
     pub(super) fn plan(&self) -> Result<Plan> {
         let mut plan = self.question.plan(&self.graphs)?;
-        plan.intrinsics = self.intrinsics.from();
         plan.request = Request {
             weak: self.weak.map(|what| match what {
                 WeakName::Pairs => Weak::Pairs,

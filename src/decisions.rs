@@ -180,10 +180,8 @@ impl Work<'_> {
                     |watch: &Watch| intrinsics::decide(input, verdict, sensors, certify, watch);
                 let (metric, evidence) = session.watched(decide).with_context(name)?;
                 let (answer, found) = ((input, verdict), (sensors, &metric));
-                let priors = plan.priors.map(|most| (most, plan.seed));
-                let line = session.watched(|watch| {
-                    of_intrinsics(answer, found, plan.list_components, priors, watch)
-                });
+                let line = session
+                    .watched(|watch| of_intrinsics(answer, found, plan.list_components, watch));
                 let line = line.with_context(name)?;
                 scope = scope.with_intrinsics(line);
                 certified = evidence;

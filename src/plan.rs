@@ -6,7 +6,7 @@
 
 use super::certificates::Target;
 use super::given;
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, ensure};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use viewcert::Known;
@@ -42,8 +42,6 @@ pub(super) struct Plan {
     pub(super) asked: Asked,
     /// What is asked about the answer.
     pub(super) request: Request,
-    /// Priors on intrinsics, so many at most.
-    pub(super) priors: Option<u32>,
     /// Files that are written.
     pub(super) products: Products,
     /// How the report is printed.
@@ -124,7 +122,6 @@ impl Plan {
             seed,
             asked: Asked::default(),
             request: Request::default(),
-            priors: None,
             products: Products::default(),
             form: Form::Text,
             list_components: false,
@@ -135,11 +132,7 @@ impl Plan {
     ///
     /// # Errors
     /// By name, what does not go together, and what to leave out.
-    pub(super) fn checked(mut self) -> Result<Self> {
-        if self.intrinsics.is_some() {
-            // Cameras to calibrate are suggested then, not images to match.
-            self.priors = self.request.suggest.take();
-        }
+    pub(super) fn checked(self) -> Result<Self> {
         self.check_question()?;
         self.check_intrinsics()?;
         self.check_products()?;
@@ -197,16 +190,6 @@ impl Plan {
         ensure!(
             !self.question.whole_graph,
             "{INTRINSICS}: is decided between bodies; leave out --method matrix"
-        );
-        if let Some(option) = self.request.asked_without_classes() {
-            bail!(
-                "{INTRINSICS}: {option} weighs pairs by the projective verdict alone; leave out one of the two"
-            );
-        }
-        ensure!(
-            self.request.write.is_none(),
-            "{INTRINSICS}: cameras to calibrate are suggested then, and {WRITE} writes pairs; leave out one of \
-             the two"
         );
         ensure!(
             self.products.proof.is_none(),

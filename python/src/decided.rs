@@ -456,7 +456,7 @@ impl Decided {
             "images" => Weak::Images,
             _ => Weak::Pairs,
         });
-        let mut request = Request {
+        let request = Request {
             weak,
             suggest,
             write,
@@ -472,11 +472,8 @@ impl Decided {
             let mut scope = Scope::new(&input, &verdict, asked, &stop)?;
             if let Some(sensors) = sensors {
                 let found = Metric::with_sensors(&input.graph, &verdict, &sensors, seed, &stop)?;
-                // Cameras to calibrate are suggested then, not images to match.
-                let priors = request.suggest.take().map(|most| (most, seed));
                 let (answer, found) = ((&*input, &*verdict), (&sensors, &found));
-                let line =
-                    assumptions::of_intrinsics(answer, found, list_components, priors, &stop)?;
+                let line = assumptions::of_intrinsics(answer, found, list_components, &stop)?;
                 scope = scope.with_intrinsics(line);
             }
             let verdict = &*scope.held(&input, &verdict);

@@ -129,25 +129,3 @@ def test_certificates_of_shared_intrinsics(edges: set[tuple[int, int]], drawn: l
             viewcert.check(found.certificate(), graph, classes=classes)
     else:
         viewcert.check(found.certificate(), graph, classes=classes)
-
-
-@settings(deadline=None, max_examples=60)
-@given(st.sets(st.sampled_from(ALL), min_size=1), st.lists(st.sampled_from(CLASSES), min_size=7, max_size=7))
-def test_a_prior_does_what_a_known_camera_does(edges: set[tuple[int, int]], drawn: list[str]) -> None:
-    graph = nx.Graph(sorted(edges))
-    classes = {node: drawn[node] for node in graph}
-    found = viewcert.intrinsics(graph, classes)
-    priors = found.priors(most=7)
-    free = {node for node, is_so in found.determined.items() if not is_so}
-    assert {node for prior in priors.each for node in prior.nodes} == free
-    assert priors.sensors == len(priors.each) == len(free) and priors.best <= len(free)
-    for prior in priors.each:
-        (node,) = prior.nodes
-        assert prior.unknown == classes[node]
-        then = viewcert.intrinsics(graph, {**classes, node: "known"})
-        assert (prior.metric, prior.rank, prior.rank_required) == (then.metric, then.rank, then.rank_required)
-        assert prior.determined == sum(then.determined.values())
-        assert prior.others == prior.determined - sum(found.determined.values()) - 1
-    known = viewcert.intrinsics(graph, {}, default="known")
-    assert priors.if_all_known == ("metric" if known.metric else "not-metric")
-    assert len(found.priors(most=1).each) == min(1, len(free))

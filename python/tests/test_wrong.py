@@ -127,7 +127,6 @@ def calls() -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
         "certificate": (verdict.certificate, {}),
         "save": (verdict.save, {"path": tempfile.mktemp()}),
         "to_dict": (verdict.to_dict, {}),
-        "priors": (known.priors, {}),
         "check cameras": (viewcert.check, {"certificate": there.certificate(), "graph": verdict, "cameras": PLACES}),
         "check classes": (viewcert.check, {"certificate": known.certificate(), "graph": PAIRS, "classes": {"a": "known"}}),
         "singular_value": (there.singular_value, {}),

@@ -19,7 +19,6 @@ pub mod merge;
 pub mod misfit;
 pub mod named;
 pub mod parts;
-pub mod priors;
 pub mod request;
 pub mod split;
 pub mod suggest;

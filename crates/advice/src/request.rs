@@ -73,11 +73,6 @@ impl Request {
         }
     }
 
-    /// The first option that has no answer where cameras have classes, if there is one.
-    pub fn asked_without_classes(&self) -> Option<&'static str> {
-        self.asked_of_pairs().find(|&option| option != "--suggest")
-    }
-
     /// Whether more than the joints is asked for.
     pub fn asks(&self) -> bool {
         self.asked_of_pairs().next().is_some() || self.export.is_some()

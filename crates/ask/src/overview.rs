@@ -413,7 +413,7 @@ fn intrinsics_of_database(
     let seed = Options::default().seed;
     let line = session.watched(|watch| -> Result<_> {
         let metric = Metric::with_sensors(&input.graph, verdict, &found, seed, watch)?;
-        let line = of_intrinsics((input, verdict), (&found, &metric), false, None, watch);
+        let line = of_intrinsics((input, verdict), (&found, &metric), false, watch);
         Ok(line?)
     });
     Ok(Ok(line?))

@@ -5,7 +5,6 @@
 use crate::condition;
 use crate::intrinsics::IntrinsicsLine;
 use crate::own_frame::{self, OwnFrameLine};
-use crate::priors::PriorsLine;
 use serde::Serialize;
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -16,7 +15,6 @@ use viewcert::graph::{Graph, UnionFind};
 use viewcert::intrinsics::{Metric, Sensors};
 use viewcert::watch::{Stopped, Watch};
 use viewcert::wording::counted;
-use viewcert_advice::priors::Priors;
 use viewcert_formats::NamedGraph;
 
 /// What known displacements rest on.
@@ -305,7 +303,7 @@ fn is_rigid_by_triangles(verdict: &Verdict) -> bool {
 }
 
 /// An answer on intrinsics, under the condition that centres are not all in one plane where calibrated cameras
-/// are lost there, as far as that is looked at unasked; with priors, so many at most, if a number is given with a seed.
+/// are lost there, as far as that is looked at unasked.
 ///
 /// # Errors
 /// If the work was stopped.
@@ -313,7 +311,6 @@ pub fn of_intrinsics(
     (input, verdict): (&NamedGraph, &Verdict),
     (sensors, found): (&Sensors, &Metric),
     list_components: bool,
-    priors: Option<(u32, u64)>,
     watch: &Watch,
 ) -> Result<IntrinsicsLine, Stopped> {
     let graph = &input.graph;
@@ -324,16 +321,6 @@ pub fn of_intrinsics(
         && !Planar::new(graph, verdict, Model::Calibrated, watch)?.is_determined()
     {
         line = line.under(NO_PLANE);
-    }
-    if let Some((most, seed)) = priors {
-        let priors = Priors::new(graph, verdict, sensors, found, seed, watch)?;
-        line = line.with_priors(PriorsLine::new(
-            input,
-            sensors,
-            found,
-            &priors,
-            most as usize,
-        ));
     }
     Ok(line)
 }

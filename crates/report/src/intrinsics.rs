@@ -4,7 +4,6 @@
 //! In: sensors with their classes, what was found. Out: lines of a report, the member `intrinsics` of JSON.
 
 use crate::condition;
-use crate::priors::PriorsLine;
 use crate::shown::{row, several, some};
 use serde::Serialize;
 use std::io::{self, Write};
@@ -44,9 +43,6 @@ pub struct IntrinsicsLine {
     /// The nodes of each of the components.
     #[serde(skip)]
     nodes: Vec<Vec<u32>>,
-    /// What one prior more would do, if that was asked.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    priors: Option<PriorsLine>,
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -127,7 +123,6 @@ impl IntrinsicsLine {
                 .iter()
                 .map(|component| component.nodes.clone())
                 .collect(),
-            priors: None,
         }
     }
 
@@ -135,17 +130,6 @@ impl IntrinsicsLine {
     pub(crate) fn under(self, more: &str) -> Self {
         let condition = condition::with(self.condition, &[more.to_owned()]);
         Self { condition, ..self }
-    }
-
-    /// With what one prior more would do.
-    pub fn with_priors(mut self, priors: PriorsLine) -> Self {
-        self.priors = Some(priors);
-        self
-    }
-
-    /// What one prior more would do, if that was asked.
-    pub(crate) fn priors(&self) -> Option<&PriorsLine> {
-        self.priors.as_ref()
     }
 
     /// Whether several cameras share unknown intrinsics.

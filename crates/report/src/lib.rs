@@ -26,7 +26,6 @@ pub mod overview_page;
 pub mod own_frame;
 mod page;
 mod part_names;
-pub mod priors;
 pub mod scene;
 pub mod screen;
 mod shown;
@@ -168,9 +167,6 @@ impl Report<'_> {
     /// Those of the writer.
     pub fn write_text(&self, out: &mut impl Write) -> io::Result<()> {
         text::write(out, self)?;
-        if let Some(priors) = self.scope.intrinsics().and_then(|line| line.priors()) {
-            priors.write(out)?;
-        }
         advice::write(out, self.advice)
     }
 

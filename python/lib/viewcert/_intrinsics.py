@@ -15,38 +15,6 @@ from ._verdict import Verdict
 
 
 @dataclass(frozen=True)
-class Prior:
-    """What is determined once one camera more is calibrated."""
-
-    nodes: Annotated[frozenset[Node],
-        "The nodes of the sensor that is calibrated: one, unless several images are of one camera."]
-    unknown: Annotated[Class,
-        "What is not known of it before, as a class: ``'focal'``, ``'focal+point'`` or ``'unknown'``."]
-    metric: Annotated[bool, "Whether all cameras are determined then; it is proved if it is said."]
-    proved: Annotated[bool, "Whether the bounds of the rank meet then, so that all of this is proved."]
-    rank: Annotated[int, "What the generic rank is not below then."]
-    rank_at_most: Annotated[int, "What it is not above then."]
-    rank_required: Annotated[int, "The rank of a metric graph."]
-    determined: Annotated[int, "How many nodes have known or determined intrinsics then."]
-    others: Annotated[int, "How many of them are neither in `nodes` nor determined without it."]
-    largest: Annotated[int, "How many nodes the largest metric component has then."]
-
-
-@dataclass(frozen=True)
-class Priors:
-    """What one prior more on intrinsics would do."""
-
-    each: Annotated[Tuple[Prior, ...],
-        "The best first: a metric graph, most intrinsics determined, the largest metric component; of equally good "
-        "ones those with the fewest unknowns."]
-    best: Annotated[int, "How many are as good as the first, itself included."]
-    sensors: Annotated[int, "How many there are: sensors with a pair of which the intrinsics are not determined."]
-    if_all_known: Annotated[str,
-        "``'metric'``, ``'not-metric'`` or ``'open'``: what the graph is if all intrinsics are known. If that is "
-        "``'not-metric'``, pairs are missing, and no priors make it metric."]
-
-
-@dataclass(frozen=True)
 class Intrinsics:
     """What is determined up to similarities and finitely many choices."""
 
@@ -78,44 +46,6 @@ class Intrinsics:
         """
         return self._verdict._native.certificate_of_intrinsics(
             list(self._classes), list(self._sensors), embed_graph=flag("embed_graph", embed_graph)
-        )
-
-    def priors(self, most: int = 10) -> Priors:
-        """Which camera to calibrate: what one prior more would do, exactly.
-
-        Parameters
-        ----------
-        most : int
-            How many to list at most, the best first.
-
-        Examples
-        --------
-        >>> import viewcert
-        >>> triangle = [("a", "b"), ("a", "c"), ("b", "c")]
-        >>> found = viewcert.intrinsics(triangle, {"a": "known"}).priors()
-        >>> found.best, [(sorted(prior.nodes), prior.metric) for prior in found.each]
-        (2, [(['b'], True), (['c'], True)])
-        """
-        found = _asked(
-            self._verdict,
-            "intrinsics",
-            suggest=most,
-            sensors=(list(self._classes), list(self._sensors)),
-        )["priors"]
-        by_text = self._verdict.graph._by_text()
-        return of_said(
-            Priors,
-            found,
-            each=tuple(
-                of_said(
-                    Prior,
-                    prior,
-                    nodes=frozenset(by_text[text] for text in prior["labels"]),
-                    unknown=prior["class"],
-                    metric=prior["verdict"] == "metric",
-                )
-                for prior in found["each"]
-            ),
         )
 
 

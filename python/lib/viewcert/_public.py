@@ -19,7 +19,7 @@ from ._files import (
 )
 from ._graph import Graph, from_database, read, tracks_from_database, tracks_from_reconstruction
 from ._incremental import Growth, Verifier
-from ._intrinsics import Intrinsics, Prior, Priors, intrinsics
+from ._intrinsics import Intrinsics, intrinsics
 from ._limits import limits
 from ._mend import Mended, mend
 from ._native import __version__
@@ -30,7 +30,7 @@ from ._witness import Witness, fundamental_matrix, witness
 __all__ = [
     "Archive", "AtCameras", "Audit", "BaseLines", "Contradictions", "Entry", "Error", "Explanation", "Export",
     "FloatRuling", "Graph", "Growth", "InputError", "Intrinsics", "Joint", "Mended", "NotVerified",
-    "NoteWarning", "Outside", "Overview", "Planar", "Prior", "Priors", "Rejected", "Report", "Ruling", "SingularValue",
+    "NoteWarning", "Outside", "Overview", "Planar", "Rejected", "Report", "Ruling", "SingularValue",
     "Solutions", "Special", "Suggestion", "TooLarge", "Undecided", "Unused", "Verdict", "Verified", "Verifier", "Weak",
     "Witness", "__version__", "at_cameras", "audit", "audit_claims", "catalog", "check", "check_all", "contradictions",
     "examples", "explain", "export", "from_database", "from_label", "fundamental_matrix", "intrinsics",

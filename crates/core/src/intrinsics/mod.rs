@@ -12,7 +12,6 @@
 //!   members    rigid bodies grow, become metric, and grow again      17.3, 17.5, 17.12
 //!   system     what they share, at drawn centres and axes            17.6, 17.9, 17.13
 //!   bound      what moves alike in one motion, counted               17.7, 17.8, 17.14
-//!   priors     what is determined if one sensor more is known        17.18
 //!
 //! certified(graph, classes)
 //!   certified  the same on the members of a certificate, with what shows it
@@ -21,12 +20,10 @@
 mod bound;
 mod certified;
 mod members;
-mod priors;
 mod sensors;
 mod system;
 
 pub use certified::Certified;
-pub use priors::Prior;
 pub use sensors::Sensors;
 
 use crate::decide::Verdict;
@@ -208,9 +205,9 @@ impl Metric {
         let mut best: Option<Shown> = None;
         for draw in 0..DRAWS {
             let key = key(graph_sha256, sensors, seed, draw);
-            let motions = System::new(members, sensors, &key).motions(1, watch)?;
+            let motions = System::new(members, sensors, &key).motions(watch)?;
             let rank = of_held - motions.dimension;
-            let alike = Alike::new(members, &motions.first());
+            let alike = Alike::new(members, &motions.moved);
             let at_most = alike.bound(members, sensors).min(required);
             // A larger rank is nearer to the generic one, and its motions are those that there are.
             let is_better = best

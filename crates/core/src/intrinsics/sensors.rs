@@ -54,13 +54,6 @@ impl Sensors {
         self.classes[self.of_node[node]]
     }
 
-    /// The same with another class for a sensor. O(n).
-    pub(super) fn with_class(&self, sensor: usize, class: Class) -> Self {
-        let mut other = self.clone();
-        other.classes[sensor] = class;
-        other
-    }
-
     /// The nodes of each sensor that has unknown intrinsics and two nodes or more, with its number. O(n).
     pub fn shared(&self) -> Vec<(usize, Vec<u32>)> {
         let mut nodes = vec![Vec::new(); self.classes.len()];

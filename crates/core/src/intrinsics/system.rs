@@ -54,27 +54,19 @@ pub(super) struct System<'a> {
     columns: usize,
 }
 
-/// Random motions at one point, independent while there are so many.
+/// The motions at one point, by a random one of them.
 pub(super) struct Motions {
     /// The dimension of all motions, scales of cameras left out.
     pub(super) dimension: usize,
     /// Which rows and columns show that it is no larger.
     pub(super) pivots: Pivots,
-    /// The first motion in the unknowns of the system.
+    /// The motion in the unknowns of the system.
     pub(super) motion: Vec<u64>,
-    field: PrimeField,
-    drawn: Vec<Values>,
+    /// What it does.
+    pub(super) moved: Moved,
 }
 
 /// What a motion does.
-struct Values {
-    /// For each member A, b and w of its X, whose lower right entry is 0.
-    members: Vec<[u64; OF_MEMBER]>,
-    /// For each node M by rows; `None` for nodes in no member.
-    nodes: Vec<Option<[u64; 9]>>,
-}
-
-/// A motion at one point.
 pub(super) struct Moved {
     /// For each member A, b and w of its X, whose lower right entry is 0.
     pub(super) members: Vec<[u64; OF_MEMBER]>,
@@ -82,70 +74,11 @@ pub(super) struct Moved {
     pub(super) turns: Vec<Option<[u64; 3]>>,
 }
 
-impl Motions {
-    /// The first motion.
-    pub(super) fn first(&self) -> Moved {
-        let mut factors = vec![0; self.drawn.len()];
-        factors[0] = self.field.one();
-        self.combined(&factors)
-    }
-
-    /// What the intrinsics of a node do in each motion, five numbers: 0 if they do not move. `None` if the
-    /// node is in no member.
-    pub(super) fn intrinsics(&self, v: usize) -> Option<Vec<[u64; 5]>> {
-        let of_node = |values: &Values| Some(sym(&self.field, &values.nodes[v]?));
-        self.drawn.iter().map(of_node).collect()
-    }
-
-    /// The sum of multiples of the motions.
-    pub(super) fn combined(&self, factors: &[u64]) -> Moved {
-        let f = &self.field;
-        let first = &self.drawn[0];
-        let members = (0..first.members.len()).map(|k| {
-            sum(
-                f,
-                factors,
-                self.drawn.iter().map(|values| &values.members[k]),
-            )
-        });
-        let turns = (0..first.nodes.len()).map(|v| {
-            let nodes = self.drawn.iter().map(|values| values.nodes[v].as_ref());
-            let m = sum(f, factors, nodes.collect::<Option<Vec<_>>>()?);
-            let stays = sym(f, &m).iter().all(|&x| x == 0);
-            stays.then(|| OFF_DIAGONAL.map(|(a, b)| m[3 * a + b]))
-        });
-        Moved {
-            members: members.collect(),
-            turns: turns.collect(),
-        }
-    }
-
-    /// The field of all numbers.
-    pub(super) fn field(&self) -> &PrimeField {
-        &self.field
-    }
-}
-
 /// sym_0 of a matrix, by the numbers that are 0 iff it is.
 fn sym(f: &PrimeField, m: &[u64; 9]) -> [u64; 5] {
     let [xy, xz, yz] = OFF_DIAGONAL.map(|(a, b)| f.plus(m[3 * a + b], m[3 * b + a]));
     let less = |a: usize| f.plus(m[0], f.negate(m[4 * a]));
     [xy, xz, yz, less(1), less(2)]
-}
-
-/// The sum of multiples of vectors.
-fn sum<'a, const N: usize>(
-    f: &PrimeField,
-    factors: &[u64],
-    of: impl IntoIterator<Item = &'a [u64; N]>,
-) -> [u64; N] {
-    let mut sum = [0; N];
-    for (&factor, vector) in factors.iter().zip(of) {
-        for (entry, &x) in sum.iter_mut().zip(vector) {
-            *entry = f.plus(*entry, f.times(factor, x));
-        }
-    }
-    sum
 }
 
 impl<'a> System<'a> {
@@ -217,11 +150,11 @@ impl<'a> System<'a> {
         says && first.is_some_and(|first| !is_metric(first))
     }
 
-    /// All motions by their dimension, and some of them.
+    /// All motions by their dimension, and a random one of them.
     ///
     /// # Errors
     /// If the work was stopped.
-    pub(super) fn motions(&self, count: usize, watch: &Watch) -> Result<Motions, Stopped> {
+    pub(super) fn motions(&self, watch: &Watch) -> Result<Motions, Stopped> {
         let f = &self.field;
         let rows = self.rows();
         let task = watch.task(Step::Flows, self.columns.div_ceil(3));
@@ -231,19 +164,17 @@ impl<'a> System<'a> {
             ..self.key
         }
         .residues(f);
-        let motions = (0..count).map(|_| done.kernel_vector(&rows, &mut random));
-        let motions: Vec<Vec<u64>> = motions.collect();
+        let motion = done.kernel_vector(&rows, &mut random);
         Ok(Motions {
-            drawn: motions.iter().map(|y| self.values(y)).collect(),
-            motion: motions.into_iter().next().unwrap_or_default(),
+            moved: self.moved(&motion),
+            motion,
             dimension: done.free_cols().len(),
             pivots: done.pivots(),
-            field: self.field,
         })
     }
 
     /// What a solution of the system does.
-    fn values(&self, y: &[u64]) -> Values {
+    fn moved(&self, y: &[u64]) -> Moved {
         let f = &self.field;
         let value = |form: Form| {
             let terms = form.into_iter();
@@ -256,15 +187,15 @@ impl<'a> System<'a> {
                 _ => value(self.w(k, at - 12)),
             })
         });
-        let nodes = (0..self.sensors.nodes()).map(|v| {
+        let turns = (0..self.sensors.nodes()).map(|v| {
             let &member = self.members.of_node[v].first()?;
-            Some(std::array::from_fn(|at| {
-                value(self.m(member, v, at / 3, at % 3))
-            }))
+            let m = std::array::from_fn(|at| value(self.m(member, v, at / 3, at % 3)));
+            let stays = sym(f, &m).iter().all(|&x| x == 0);
+            stays.then(|| OFF_DIAGONAL.map(|(a, b)| m[3 * a + b]))
         });
-        Values {
+        Moved {
             members: members.collect(),
-            nodes: nodes.collect(),
+            turns: turns.collect(),
         }
     }
 
