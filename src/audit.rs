@@ -12,16 +12,14 @@ use viewcert::Model;
 use viewcert::at_cameras::{Centres, Here};
 use viewcert::decide;
 use viewcert::watch::Watch;
-use viewcert_audit::at_cameras;
-use viewcert_audit::claims::{self, Ruling};
-use viewcert_audit::enclosure::{Matrix, SigmaError, enclose};
-use viewcert_audit::table::TableError;
+use viewcert_audit::claims::{Bad, Claim, Ruling, of_cameras, of_graphs};
+use viewcert_audit::enclosure::{CENTRES_ALONE, enclose};
 use viewcert_audit::{Beside, Options, TOLERANCE};
 use viewcert_formats::{NamedGraph, cameras_beside, whole};
-use viewcert_report::audit::{Audit, Found, Ruled};
+use viewcert_report::audit::{Found, write_audit, write_ruling};
 use viewcert_report::json::write_failed;
 use viewcert_report::{counted, head};
-use viewcert_session::exit::{GOOD, NOT, TooLarge, ends_run};
+use viewcert_session::exit::{GOOD, NOT, ends_run};
 use viewcert_session::{Session, complain, outputs, printable};
 
 /// Options of the audit.
@@ -65,6 +63,11 @@ impl AuditArguments {
         let options = decide::Options::default().seed(self.seed);
         options.watch(session.watch())
     }
+
+    fn table<T>(&self, path: &Path, read: fn(&str) -> Result<T, Bad>) -> Result<T> {
+        let bad = |error: Bad| anyhow!("{}:{}: {error}", path.display(), error.line);
+        read(&whole::text(path)?).map_err(bad)
+    }
 }
 
 /// Audits every graph in turn, or every claim, or what was found at given cameras.
@@ -82,80 +85,59 @@ pub(super) fn run(session: &Session, arguments: &AuditArguments) -> Result<u8> {
         let about = arguments.float.as_deref().unwrap_or(path);
         return input::recorded(arguments.json, about, done);
     }
+    let (tolerance, seed) = (arguments.tolerance, arguments.seed);
     let each = |out: &mut _, input: &NamedGraph, _| {
-        let agree = one(session, arguments, input, out).with_context(|| input.name.clone())?;
-        Ok(if agree { GOOD } else { NOT })
+        let (name, start) = (|| input.name.clone(), Instant::now());
+        let exact = decide::decide(&input.graph, &arguments.exact(session)).with_context(name)?;
+        let (time, options) = (start.elapsed(), Options { tolerance, seed });
+        let float = Beside::new(&input.graph, &exact, &options, arguments.draws);
+        let float = float.with_context(name)?;
+        write_audit(out, arguments.json, (input, &exact, time), &float)?;
+        Ok(if float.agrees { GOOD } else { NOT })
     };
     let (input, graphs) = (&arguments.input, (&*arguments.graphs, arguments.json));
     input.for_each(session, graphs, &|_| None, &mut outputs::text(&[]), each)
-}
-
-/// Audits one graph; whether both sides agree.
-fn one(
-    session: &Session,
-    arguments: &AuditArguments,
-    input: &NamedGraph,
-    out: &mut impl Write,
-) -> Result<bool> {
-    let options = Options {
-        tolerance: arguments.tolerance,
-        seed: arguments.seed,
-    };
-    let start = Instant::now();
-    let exact = decide::decide(&input.graph, &arguments.exact(session))?;
-    let found = Audit {
-        input,
-        exact: &exact,
-        exact_time: start.elapsed(),
-        tolerance: options.tolerance,
-        float: Beside::new(&input.graph, &exact, &options, arguments.draws)?,
-    };
-    found.write(out, arguments.json)?;
-    Ok(found.float.agrees)
-}
-
-/// What is wrong with a table, by its line.
-fn refused(path: &Path, error: &TableError) -> anyhow::Error {
-    anyhow!("{}:{}: {error}", path.display(), error.line)
 }
 
 /// Rules on all rows of a table; a bad one is reported and does not stop the others.
 fn all_claims(session: &Session, arguments: &AuditArguments, path: &Path) -> Result<u8> {
     ensure!(
         !arguments.input.says_anything(),
-        "options that say how graphs are read cannot be used with --claims: the column `options` of \
-         `verify --table=csv` says it for each row; convert others by `verify convert`"
+        "options that say how graphs are read cannot be used with --claims; write what they read with \
+         `verify convert`, and name that file"
     );
-    let rows = claims::read_table(&whole::text(path)?).map_err(|error| refused(path, &error))?;
+    let rows = arguments.table(path, of_graphs)?;
     let (out, json) = (&mut outputs::text(&[]), arguments.json);
-    let lines = rows.iter().map(|row| (row.line, row));
-    let mut rule = |out: &mut _, number, row| {
-        let of = claims::claim(row)?;
-        let input = &of.graph()?;
-        let found = claims::ruled(&of, input, &arguments.exact(session));
+    let mut rule = |out: &mut _, number, claim: &Claim| {
+        let input = &claim.graph()?;
+        let found = claim.ruled(input, &arguments.exact(session));
         let (ruling, exact) = found.with_context(|| input.name.clone())?;
-        let (row, found) = (Some((number, &of.claim, &ruling)), Found::Generic(&exact));
-        Ruled { row, input, found }.write(out, json)?;
+        let (row, found) = (Some((number, claim, &ruling)), Found::Generic(&exact));
+        write_ruling(out, json, row, input, found)?;
         Ok(ruling)
     };
-    rule_all(session, (path, json), lines, out, &mut rule)
+    rule_all(session, (path, json), rows.into_iter(), out, &mut rule)
 }
 
 /// Rules on rows with their lines, and sums up; a bad one is reported and does not stop the others.
-fn rule_all<T, W: Write>(
+fn rule_all<W: Write>(
     session: &Session,
     (path, json): (&Path, bool),
-    rows: impl Iterator<Item = (usize, T)>,
+    rows: impl Iterator<Item = Result<Claim, Bad>>,
     out: &mut W,
-    rule: &mut dyn FnMut(&mut W, usize, T) -> Result<Ruling>,
+    rule: &mut dyn FnMut(&mut W, usize, &Claim) -> Result<Ruling>,
 ) -> Result<u8> {
-    let (mut counts, mut worst) = ([0; 4], GOOD);
-    for (number, (line, row)) in (1..).zip(rows) {
+    let ([mut confirmed, mut refuted, mut open, mut bad], mut worst) = ([0; 4], GOOD);
+    for (number, row) in (1..).zip(rows) {
         session.begin_work(Some(Duration::ZERO));
-        let kind = match rule(out, number, row) {
-            Ok(Ruling::Confirmed) => 0,
-            Ok(Ruling::Refuted(_)) => 1,
-            Ok(Ruling::NotDecidable(_)) => 2,
+        let line = row.as_ref().map_or_else(|bad| bad.line, |claim| claim.line);
+        match row
+            .map_err(Into::into)
+            .and_then(|claim| rule(out, number, &claim))
+        {
+            Ok(Ruling::Confirmed) => confirmed += 1,
+            Ok(Ruling::Refuted(_)) => refuted += 1,
+            Ok(Ruling::NotDecidable(_)) => open += 1,
             Err(error) if ends_run(&error) => return Err(error),
             Err(error) => {
                 let (place, why) = (format!("{}:{line}", path.display()), format!("{error:#}"));
@@ -166,102 +148,70 @@ fn rule_all<T, W: Write>(
                 };
                 written.context("standard output")?;
                 worst = worst.max(session.exit_code(&error));
-                3
+                bad += 1;
             }
-        };
-        counts[kind] += 1;
+        }
         out.flush().context("standard output")?;
     }
-    let [confirmed, refuted, open, bad] = counts;
     if !json {
         let bad = counted(bad, "bad row");
-        writeln!(
-            out,
-            "{confirmed} confirmed, {refuted} refuted, {open} not decidable, {bad}"
-        )?;
+        write!(out, "{confirmed} confirmed, {refuted} refuted, ")?;
+        writeln!(out, "{open} not decidable, {bad}")?;
         out.flush().context("standard output")?;
     }
     Ok(worst.max(if refuted > 0 { NOT } else { GOOD }))
 }
 
 /// The exact answer in one model, and the cameras as they were read.
-struct Exact {
-    input: NamedGraph,
-    centres: Centres,
-    here: Here,
-}
+struct Exact(NamedGraph, Centres, Here);
 
 /// Rules on what floating point found at the cameras of a file, or says what is so where there is no table.
 fn at_given_cameras(session: &Session, arguments: &AuditArguments, path: &Path) -> Result<u8> {
-    let (name, graphs, json) = ("--cameras", &arguments.graphs, arguments.json);
+    let (name, graphs, json) = ("--cameras", &*arguments.graphs, arguments.json);
     let reason = |what: &str| Some(too_many(name, path, what));
     let count = graphs.len();
     ensure!(count == 1, too_many(name, path, &format!("{count} graphs")));
     crate::given::ensure_one_standard_input(name, Some(path), graphs)?;
-    let read = |table: &PathBuf| {
-        let rows = at_cameras::read_table(&whole::text(table)?);
-        let rows = rows.map_err(|error| refused(table, &error))?;
-        Ok::<_, anyhow::Error>((table.clone(), rows))
-    };
-    let table = arguments.float.as_ref().map(read).transpose()?;
-    let rows = table.as_ref().map_or(&[][..], |(_, rows)| rows);
-    let mut models: Vec<Model> = rows.iter().map(|of| of.claim.model).collect();
-    if models.is_empty() {
-        models.push(Model::default());
-    }
+    let read = |table| Ok::<_, anyhow::Error>((table, arguments.table(table, of_cameras)?));
+    let table = arguments.float.as_deref().map(read).transpose()?;
     let each = |out: &mut _, input: &NamedGraph, _| {
-        let mut answers: Vec<Exact> = Vec::new();
-        for &model in &models {
-            if answers.iter().all(|answer| answer.here.model != model) {
-                answers.push(exact(session, input, path, model)?);
-            }
-        }
+        let first = table.as_ref().and_then(|(_, rows)| rows.first());
+        let model = first.map_or_else(Model::default, |claim| claim.model);
+        let mut at = exact(session, input, path, model)?;
         if !json {
-            head(out, &answers[0].input)?;
+            head(out, &at.0)?;
         }
         let Some((table, rows)) = &table else {
-            let Exact {
-                input,
-                centres,
-                here,
-            } = &answers[0];
-            let at = (centres, here);
-            let enclosed =
-                |watch: &Watch| enclose(Matrix::Plain, &input.graph, at, (None, None), watch);
-            let sigma = centres.cameras().map(|_| session.watched(enclosed));
-            let sigma = sigma.transpose().map_err(not_enclosed)?;
-            let sigma = sigma.map(|found| (Matrix::Plain, found));
-            let (row, found) = (None, Found::AtCameras(here, sigma.as_ref()));
-            Ruled { row, input, found }.write(out, json)?;
+            let (graph, here) = (&at.0.graph, &at.2);
+            let sigma = session.watched(|watch| enclose(graph, (&at.1, here), None, watch))?;
+            write_ruling(
+                out,
+                json,
+                None,
+                &at.0,
+                Found::AtCameras(here, sigma.as_ref()),
+            )?;
             return Ok(GOOD);
         };
-        let lines = rows.iter().map(|of| (of.claim.line, of));
-        rule_all(
-            session,
-            (table, json),
-            lines,
-            out,
-            &mut |out, number, of| {
-                let at = answers.iter().find(|at| at.here.model == of.claim.model);
-                let Exact {
-                    input,
-                    centres,
-                    here,
-                } = at.context("every model is decided")?;
-                let at = (centres, here);
-                let found = session.watched(|watch| at_cameras::ruled(of, &input.graph, at, watch));
-                let (ruling, sigma) = found.map_err(not_enclosed)?;
-                let row = Some((number, &of.claim, &ruling));
-                let found = Found::AtCameras(here, sigma.as_ref());
-                Ruled { row, input, found }.write(out, json)?;
-                Ok(ruling)
-            },
-        )
+        let mut rule = |out: &mut _, number, claim: &Claim| {
+            if at.2.model != claim.model {
+                at = exact(session, input, path, claim.model)?;
+            }
+            let (graph, here) = (&at.0.graph, &at.2);
+            let ruled = |watch: &Watch| claim.at_cameras(graph, (&at.1, here), watch);
+            let (ruling, sigma) = session.watched(ruled)?.context(CENTRES_ALONE)?;
+            let (row, found) = (
+                Some((number, claim, &ruling)),
+                Found::AtCameras(here, sigma.as_ref()),
+            );
+            write_ruling(out, json, row, &at.0, found)?;
+            Ok(ruling)
+        };
+        let rows = rows.iter().cloned().map(Ok);
+        rule_all(session, (table, json), rows, out, &mut rule)
     };
-    let graphs = (&**graphs, json);
-    arguments
-        .input
-        .for_each(session, graphs, &reason, &mut outputs::text(&[]), each)
+    let (input, graphs) = (&arguments.input, (graphs, json));
+    input.for_each(session, graphs, &reason, &mut outputs::text(&[]), each)
 }
 
 fn exact(session: &Session, input: &NamedGraph, path: &Path, model: Model) -> Result<Exact> {
@@ -272,21 +222,7 @@ fn exact(session: &Session, input: &NamedGraph, path: &Path, model: Model) -> Re
             path.display()
         );
     };
-    let input = noted(input, cameras.notes).into_owned();
-    let here =
-        session.watched(|watch| crate::at_cameras::decide(&input, &cameras.centres, watch))?;
-    Ok(Exact {
-        input,
-        centres: cameras.centres,
-        here,
-    })
-}
-
-/// Why a singular value is not enclosed.
-fn not_enclosed(error: SigmaError) -> anyhow::Error {
-    match error {
-        SigmaError::TooLarge { .. } => TooLarge(error.to_string()).into(),
-        SigmaError::Stopped(stopped) => stopped.into(),
-        error => anyhow!(error),
-    }
+    let (input, centres) = (noted(input, cameras.notes).into_owned(), cameras.centres);
+    let here = session.watched(|watch| crate::at_cameras::decide(&input, &centres, watch))?;
+    Ok(Exact(input, centres, here))
 }

@@ -1,7 +1,7 @@
 """The singular values of `verify audit --cameras`, computed by numpy from the definitions.
 
-In: pairs, and lines `pose NAME qw qx qy qz x y z`. Out: one number a line, of J_P, of the bearing matrix
-and of R_B, each the first one that is not of a trivial motion.
+In: pairs, and lines `pose NAME qw qx qy qz x y z`. Out: one number a line, of J_P and of the bearing matrix, each the
+first one that is not of a trivial motion.
 """
 import sys
 
@@ -26,7 +26,7 @@ for line in open(sys.argv[2]):
 pairs = [tuple(names.index(name) for name in line.split()) for line in open(sys.argv[1])]
 
 vech = [(r, c) for c in range(4) for r in range(c, 4)]
-n, rows, bearings, by_length = len(names), [], [], []
+n, rows, bearings = len(names), [], []
 for i, j in pairs:
     # F = [e]x P_j P_i^+ with the image e of the centre of i, of norm 10.
     e = cameras[j] @ np.append(centres[i], 1)
@@ -40,11 +40,9 @@ for i, j in pairs:
             block[:, 12 * v + k] = [(s + s.T)[at] for at in vech]
     rows.append(block)
     d = centres[j] - centres[i]
-    length = np.linalg.norm(d)
     block = np.zeros((3, 3 * n))
-    block[:, 3 * i : 3 * i + 3] = np.eye(3) - np.outer(d, d) / length**2
+    block[:, 3 * i : 3 * i + 3] = np.eye(3) - np.outer(d, d) / (d @ d)
     block[:, 3 * j : 3 * j + 3] = -block[:, 3 * i : 3 * i + 3]
     bearings.append(block)
-    by_length.append(block / length)
-for matrix, required in [(rows, 11 * n - 15), (bearings, 3 * n - 4), (by_length, 3 * n - 4)]:
+for matrix, required in [(rows, 11 * n - 15), (bearings, 3 * n - 4)]:
     print(repr(float(np.linalg.svd(np.vstack(matrix), compute_uv=False)[required - 1])))

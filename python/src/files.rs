@@ -2,7 +2,6 @@
 //! certificates.
 
 use crate::graph::Reading;
-use crate::studies::{Said, said};
 use crate::work::Job;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
@@ -14,6 +13,20 @@ use viewcert_formats::folder::Listing;
 use viewcert_report::{overview_page, screen};
 use viewcert_session::Session;
 use viewcert_session::exit::TooLarge;
+
+/// What is said for programs, as JSON, and for people.
+pub(crate) type Said = (String, String);
+
+/// Both of them.
+pub(crate) fn said(
+    json: impl FnOnce(&mut Vec<u8>) -> std::io::Result<()>,
+    text: impl FnOnce(&mut Vec<u8>) -> std::io::Result<()>,
+) -> anyhow::Result<Said> {
+    let (mut of_json, mut of_text) = (Vec::new(), Vec::new());
+    json(&mut of_json)?;
+    text(&mut of_text)?;
+    Ok((String::from_utf8(of_json)?, String::from_utf8(of_text)?))
+}
 
 /// What is asked in a session of its own.
 fn asked<T: Send + 'static>(

@@ -219,7 +219,7 @@ def test_what_is_refused(tmp_path: pathlib.Path) -> None:
 def test_singular_values_are_enclosed() -> None:
     graph = viewcert.verify(nx.complete_graph(4))
     cameras = [np.random.default_rng(k).integers(-9, 10, (3, 4)) for k in range(4)]
-    found = viewcert.at_cameras(graph, cameras).singular_value(norm=10)
+    found = viewcert.at_cameras(graph, cameras).singular_value()
     # By the definition: all cameras and fundamental matrices of Frobenius norm 10.
     scaled = [10 * camera / np.linalg.norm(camera) for camera in cameras]
     rows = []

@@ -8,15 +8,13 @@
 //! auxiliary unknowns for the rank of the cameras, and halves the rows of the diagonal of S + S^T; the paper's J has
 //! neither.) G is called finite solvable if the smallest eigenvalue of J^T J is above a tolerance.
 //!
-//! [`claims`] of others are decided again, and results [`at_cameras`] that somebody brings, with an [`enclosure`] of the
-//! singular value. No float is in any verdict or certificate.
+//! [`claims`] of others are decided again, also of given cameras, with an [`enclosure`] of the singular value. No float is in
+//! any verdict or certificate.
 
-pub mod at_cameras;
 pub mod claims;
 pub mod enclosure;
 pub mod linear;
 pub mod softness;
-pub mod table;
 
 use linear::{Doubles, Inverse, envelope_order, reordered};
 use rayon::prelude::*;
@@ -46,55 +44,26 @@ pub struct Options {
     pub seed: u64,
 }
 
-/// What floating point says.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FloatVerdict {
-    /// Finite solvable.
-    Solvable,
-    /// Not finite solvable.
-    NotSolvable,
-    /// A value is not a number, or infinite.
-    Undecided,
-}
-
-impl FloatVerdict {
-    /// The verdict by the smallest eigenvalue.
-    pub fn by_tolerance(eigenvalue: f64, tolerance: f64) -> Self {
-        match eigenvalue.is_finite() {
-            false => Self::Undecided,
-            true if eigenvalue > tolerance => Self::Solvable,
-            true => Self::NotSolvable,
-        }
-    }
-
-    /// The name in reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Solvable => "finite-solvable",
-            Self::NotSolvable => "not-finite-solvable",
-            Self::Undecided => "undecided",
-        }
-    }
-}
-
 /// The outcome at one draw of cameras.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outcome {
-    /// By the tolerance on the smallest eigenvalue.
-    pub verdict: FloatVerdict,
+    /// Whether floating point says finite solvable; nothing where a value is not a number, or infinite.
+    pub is_solvable: Option<bool>,
     /// The smallest singular value of J.
     pub smallest: f64,
+    /// Its square, the smallest eigenvalue of J^T J.
+    pub eigenvalue: f64,
 }
 
 impl Outcome {
-    /// The smallest eigenvalue of J^T J.
-    pub fn eigenvalue(&self) -> f64 {
-        self.smallest * self.smallest
-    }
-
-    /// By how many decades the eigenvalue lies above (below: negative) the tolerance.
-    pub fn margin(&self, tolerance: f64) -> f64 {
-        (self.eigenvalue() / tolerance).log10()
+    fn new(smallest: f64, tolerance: f64) -> Self {
+        let eigenvalue = smallest * smallest;
+        let is_solvable = eigenvalue.is_finite().then_some(eigenvalue > tolerance);
+        Self {
+            is_solvable,
+            smallest,
+            eigenvalue,
+        }
     }
 }
 
@@ -104,12 +73,9 @@ pub enum AuditError {
     /// The graph has no pairs, and so no frame.
     #[error("the graph has no pairs, and J no frame to fix")]
     NoPairs,
-    /// The singular values did not converge.
+    /// Singular values did not converge, or no shift made a matrix positive definite.
     #[error("the singular values did not converge, or are not numbers")]
     NoConvergence,
-    /// No shift made J^T J positive definite.
-    #[error("the Cholesky factor of J^T J failed at every shift")]
-    NoFactor,
 }
 
 /// Numbers uniform in [0, 1), with 53 random bits each.
@@ -177,11 +143,7 @@ pub fn decide(graph: &Graph, options: &Options, draw: u64) -> Result<Outcome, Au
     let mut j = augmented(graph, options.seed, draw);
     reordered(&mut j, 12, &envelope_order(graph));
     let (values, _) = Inverse::new(&j, 12 * graph.nodes())?.smallest(1, 1e-10)?;
-    let smallest = values[0];
-    Ok(Outcome {
-        verdict: FloatVerdict::by_tolerance(smallest * smallest, options.tolerance),
-        smallest,
-    })
+    Ok(Outcome::new(values[0], options.tolerance))
 }
 
 /// Components by the rows of a null space that vanish (the paper's section 4.2): for every edge the number of its
@@ -207,24 +169,24 @@ pub fn components(graph: &Graph, options: &Options, draw: u64) -> Result<Vec<usi
         reordered(&mut j, 12, &place);
         let null = Inverse::new(&j, 12 * graph.nodes())?.null_space(options.tolerance)?;
         let vanishes = |v: u32| {
-            let of = |x: &Vec<f64>| {
-                x[12 * place[v as usize]..][..12]
-                    .iter()
-                    .map(|x| x.abs())
-                    .sum()
-            };
-            let squares: f64 = null.iter().map(of).map(|part: f64| part * part).sum();
-            squares.sqrt() < VANISHES
+            let rows = 12 * place[v as usize]..;
+            let sum = |x: &Vec<f64>| x[rows.clone()][..12].iter().map(|x| x.abs()).sum::<f64>();
+            null.iter()
+                .map(sum)
+                .map(|sum| sum * sum)
+                .sum::<f64>()
+                .sqrt()
+                < VANISHES
         };
         for (e, &(i, j)) in edges.iter().enumerate() {
             if component[e].is_none() && (e == frame || vanishes(i) && vanishes(j)) {
                 component[e] = Some(number);
             }
         }
-        match component.iter().position(Option::is_none) {
-            Some(next) => frame = next,
-            None => break,
-        }
+        let Some(next) = component.iter().position(Option::is_none) else {
+            break;
+        };
+        frame = next;
     }
     Ok(component.into_iter().flatten().collect())
 }
@@ -238,6 +200,8 @@ pub struct Beside {
     pub components: Option<usize>,
     /// Its time, components included.
     pub time: Duration,
+    /// That of the options.
+    pub tolerance: f64,
     /// How many draws there were.
     pub draws: usize,
     /// At how many of them the float verdict was not the exact one.
@@ -259,29 +223,28 @@ impl Beside {
     ) -> Result<Self, AuditError> {
         let start = Instant::now();
         let outcome = decide(graph, options, 0)?;
-        let components = match outcome.verdict {
-            FloatVerdict::Solvable => Some(1),
-            FloatVerdict::NotSolvable => {
-                let found = components(graph, options, 0)?;
-                Some(found.iter().max().map_or(0, |largest| largest + 1))
-            }
-            FloatVerdict::Undecided => None,
+        let components = match outcome.is_solvable {
+            Some(true) => Some(1),
+            Some(false) => components(graph, options, 0)?
+                .into_iter()
+                .max()
+                .map(|last| last + 1),
+            None => None,
         };
         let time = start.elapsed();
         let more = (1..draws).into_par_iter();
-        let more = more.map(|draw| Ok(decide(graph, options, draw)?.verdict));
-        let mut verdicts = more.collect::<Result<Vec<_>, AuditError>>()?;
-        verdicts.push(outcome.verdict);
-        let right = match exact.value {
-            Value::NotFiniteSolvable => FloatVerdict::NotSolvable,
-            _ => FloatVerdict::Solvable,
-        };
-        let misjudged = verdicts.iter().filter(|&&verdict| verdict != right).count();
+        let more = more.map(|draw| decide(graph, options, draw));
+        let mut outcomes = more.collect::<Result<Vec<_>, AuditError>>()?;
+        outcomes.push(outcome);
+        let right = Some(exact.value != Value::NotFiniteSolvable);
+        let is_wrong = |outcome: &&Outcome| outcome.is_solvable != right;
+        let misjudged = outcomes.iter().filter(is_wrong).count();
         Ok(Self {
             outcome,
             components,
             time,
-            draws: verdicts.len(),
+            tolerance: options.tolerance,
+            draws: outcomes.len(),
             misjudged,
             agrees: misjudged == 0 && components == Some(exact.components.len()),
         })

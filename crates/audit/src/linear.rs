@@ -214,8 +214,9 @@ impl<'a> Inverse<'a> {
             vectors.par_iter_mut().for_each(|x| self.factor.solve(x));
             orthonormal(&mut vectors);
             let image = |x: &Vec<f64>| {
-                let times = |row: &Vec<(usize, f64)>| row.iter().map(|&(k, y)| y * x[k]).sum();
-                self.matrix.iter().map(times).collect()
+                let rows = self.matrix.iter();
+                rows.map(|row| row.iter().map(|&(k, y)| y * x[k]).sum())
+                    .collect()
             };
             let (found, turned) = singular(vectors.iter().map(image).collect(), vectors)?;
             let mut changes = found.iter().zip(&values).take(count);
@@ -265,7 +266,7 @@ impl Factor {
         }
         let mut shifts = (-15..=-5).map(|k| largest * 10f64.powi(k));
         let factor = shifts.find_map(|shift| factored(matrix.clone(), shift));
-        Ok((Self(factor.ok_or(AuditError::NoFactor)?), largest))
+        Ok((Self(factor.ok_or(AuditError::NoConvergence)?), largest))
     }
 
     /// Solves for a right-hand side, in its place.

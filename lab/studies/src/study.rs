@@ -89,7 +89,7 @@ pub fn eigenvalues(
             dense
         };
         Ok(match method {
-            Method::Sparse => decide(graph, options, draw)?.eigenvalue(),
+            Method::Sparse => decide(graph, options, draw)?.eigenvalue,
             Method::Dense => singular(dense(), false)?.0[columns - 1].powi(2),
             Method::Gram => {
                 let dense = dense();

@@ -157,23 +157,18 @@ class AtCameras:
             for motion in found
         ]
 
-    def singular_value(self, matrix: Optional[str] = None, *, norm: Any = None) -> SingularValue:
+    def singular_value(self) -> SingularValue:
         """The smallest singular value that is not of a trivial motion, between two fractions: what floating
         point computes, without its rounding.
 
-        Parameters
-        ----------
-        matrix : {'J_P', 'J', 'bearing', 'R_B'}, optional
-            Of which matrix; ``'J_P'`` and ``'J'`` of projective cameras, of which matrices are needed and not
-            centres alone, ``'bearing'`` and ``'R_B'`` (each pair's rows divided by its length) of calibrated ones.
-            By default the first of the model.
-        norm : number, optional
-            The Frobenius norm to which cameras and fundamental matrices are scaled, 10 as in the literature.
+        Of projective cameras, of which matrices are needed and not centres alone, that of the Jacobian ``J_P`` with
+        cameras and fundamental matrices of Frobenius norm 10, as in the literature. Of calibrated ones that of the
+        ``bearing`` matrix.
 
         Raises
         ------
         InputError
-            A matrix of another model, or centres alone where cameras are needed.
+            Centres alone where cameras are needed, or affine cameras.
         TooLarge
             More than 300 projective or 1,200 calibrated cameras.
 
@@ -185,10 +180,7 @@ class AtCameras:
         >>> float(value.least) <= 1.0 <= float(value.most)
         True
         """
-        if matrix is None:
-            matrix = "bearing" if self._verdict.model == "calibrated" else "J_P"
-        exact = None if norm is None else _exact(norm)
-        (least, most), place = _native.singular_value(self._at(), matrix, norm=exact)
+        matrix, place, least, most = _native.singular_value(self._at())
         return SingularValue(matrix, place, Fraction(least), Fraction(most))
 
     def audit(self, table: Any) -> List[FloatRuling]:
@@ -198,7 +190,7 @@ class AtCameras:
         ----------
         table : path, mapping, or iterable of mappings
             A CSV file, or rows with the columns ``verdict`` (``'determined'`` or not), ``rank``, ``components``,
-            ``sigma`` with ``sigma_error``, ``matrix`` and ``norm``, and ``name``; see docs/audit.md.
+            ``sigma``, and ``name``; see docs/audit.md.
 
         Examples
         --------

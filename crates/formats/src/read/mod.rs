@@ -205,49 +205,6 @@ impl ReadOptions {
             .filter_map(|(name, value)| Some((name.to_owned(), value?)));
         said.collect()
     }
-
-    /// The options that [`given`](Self::given) tells.
-    ///
-    /// # Errors
-    /// The name of an option that there is not, or whose value is none.
-    pub fn of_given(given: &BTreeMap<String, String>) -> Result<Self, String> {
-        let mut options = Self::default();
-        let mut tracks = TrackOptions::default();
-        for (name, value) in given {
-            fn set<T: FromStr>(place: &mut Option<T>, value: &str) -> bool {
-                *place = value.parse().ok();
-                place.is_some()
-            }
-            let mut number = None;
-            let known = match &**name {
-                "format" => set(&mut options.format, value),
-                "variable" => set(&mut options.variable, value),
-                "pipeline" => {
-                    let both = [Pipeline::Incremental, Pipeline::Global];
-                    options.pipeline = both.into_iter().find(|mapper| mapper.name() == value);
-                    options.pipeline.is_some()
-                }
-                "min-inliers" => set(&mut options.min_inliers, value),
-                "columns" => set(&mut options.list.columns, value),
-                "min-weight" => set(&mut options.list.min_weight, value),
-                "skip-loops" => !std::mem::replace(&mut options.list.skip_loops, true),
-                "tracks" => true,
-                "min-views" | "max-spread" => set(&mut number, value),
-                "no-rigs" => std::mem::take(&mut tracks.rigs),
-                _ => false,
-            };
-            match (&**name, number) {
-                ("min-views", Some(least)) => tracks.min_views = least,
-                (_, Some(most)) => tracks.max_spread = most,
-                _ => {}
-            }
-            if !known {
-                return Err(name.clone());
-            }
-        }
-        options.tracks = given.contains_key("tracks").then_some(tracks);
-        Ok(options)
-    }
 }
 
 /// The graphs of an input, or why there is none.
