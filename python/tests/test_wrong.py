@@ -129,7 +129,6 @@ def calls() -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
         "to_dict": (verdict.to_dict, {}),
         "check cameras": (viewcert.check, {"certificate": there.certificate(), "graph": verdict, "cameras": PLACES}),
         "check classes": (viewcert.check, {"certificate": known.certificate(), "graph": PAIRS, "classes": {"a": "known"}}),
-        "singular_value": (there.singular_value, {}),
         "rule": (there.audit, {"table": [{"rank": 3}]}),
         "isin": (graph.__contains__, {"node": "a"}),
     }.items():
