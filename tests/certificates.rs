@@ -125,7 +125,6 @@ fn every_kind_of_evidence_is_written_and_verified() {
         "one-solution",
         "plane-flow",
         "plane-minor",
-        "support",
     ];
     assert_eq!(
         kinds.iter().map(String::as_str).collect::<Vec<_>>(),

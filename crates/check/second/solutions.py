@@ -495,22 +495,20 @@ def check_upper(value, core, where, meter):
     chart = Chart(chart, core, f"{where}: chart", meter)
     rows = Rows(chart, centres, f"{where}: centres", meter)
     known = {}
-    for k, step in enumerate(a_list(steps, f"{where}: steps")):
-        at = f"{where}: step {k}"
-        need(type(step) is dict and step.get("kind") in ("linear", "support"), f"{at} has no such kind")
-        if step["kind"] == "linear":
-            check_linear(step, rows, known, at)
-        else:
-            unknowns = check_support(step, rows, known, at)
-            known.update((f, 1) for f in unknowns)
-    if points is None:
-        need(len(known) == len(chart.unknowns), f"{where}: an unknown is not known after the steps")
+    check_steps(steps, rows, known, where, all_known=points is None)
     return 1 if points is None else check_points(points, chart, known, f"{where}: points", meter)
+
+
+def check_steps(steps, rows, known, where, all_known=True):
+    for k, step in enumerate(a_list(steps, f"{where}: steps")):
+        check_linear(step, rows, known, f"{where}: step {k}")
+    need(not all_known or len(known) == len(rows.chart.unknowns), f"{where}: an unknown is not known after the steps")
 
 
 def check_linear(value, rows, known, where):
     """(S9) to (S11): the unknowns that become known are added to `known`, with their values."""
-    _, freed, settled = members(value, "kind freed settled", where)
+    kind, freed, settled = members(value, "kind freed settled", where)
+    need(kind == "linear", f"{where}: there is no such kind")
     p, width = rows.p, rows.chart.width
     freed = [an_int(row, f"{where}: freed", 0, len(rows.sides)) for row in a_list(freed, f"{where}: freed")]
     increasing(freed, f"{where}: (S9) freed")
@@ -546,7 +544,7 @@ def check_linear(value, rows, known, where):
         known[f] = quotient
 
 
-class Support:
+class Span:
     """(S12) to (S14): unknowns, degree bounds, exponents, and the coefficients of all shifts of all minors."""
 
     def __init__(self, unknowns, bounds, absent, minors, rows, known, where):
@@ -670,7 +668,7 @@ class Support:
         return interpolated(values, degrees, p)
 
     def matrix(self):
-        """(S16): the coefficients at the exponents, as rows."""
+        """(S16) and (S17): the coefficients at the exponents, as rows."""
         self.meter.charge(SPARSE * (len(self.exponents) + sum(map(len, self.coefficients))))
         number = {a: k for k, a in enumerate(self.exponents)}
         return [{number[e]: v for e, v in row.items() if e in number and v} for row in self.coefficients]
@@ -741,57 +739,37 @@ def lagrange(degree, p):
     return [[column[e] for column in columns] for e in range(degree + 1)]
 
 
-def check_support(value, rows, known, where):
-    """(S12) to (S16): the unknowns that are 1."""
-    _, unknowns, bounds, absent, minors = members(value, "kind unknowns bounds absent minors", where)
-    support = Support(unknowns, bounds, absent, minors, rows, known, where)
-    need(all(support.neighbours()), f"{where}: (S15) an unknown that the exponents do not tell apart")
-    rank, due = rank_of(support.matrix(), rows.p, rows.meter), len(support.exponents) - 1
-    need(rank == due, f"{where}: (S16) the coefficients have the rank {rank}, not {due}")
-    return support.unknowns
-
-
 def check_points(value, chart, known, where, meter):
-    """(S17) and (S18): the number of points."""
+    """(S15) to (S18): the number of points."""
     centres, unknowns, bounds, absent, minors, points = members(value, "centres unknowns bounds absent minors points", where)
     rows = Rows(chart, centres, f"{where}: centres", meter)
-    support = Support(unknowns, bounds, absent, minors, rows, known, where)
-    parsed = []
+    span, parsed = Span(unknowns, bounds, absent, minors, rows, known, where), []
     for k, point in enumerate(a_list(points, f"{where}: points")):
-        values, steps = members(point, "values steps", f"{where}: point {k}")
-        values = [a_residue(w, rows.p, f"{where}: point {k}") for w in a_list(values, f"{where}: point {k}: values")]
-        need(len(values) == len(support.unknowns), f"{where}: point {k}: (S17) another number of values")
-        parsed.append((values, a_list(steps, f"{where}: point {k}: steps")))
-    check_kernel(support, [tuple(values) for values, _ in parsed], where)
-    for k, (values, steps) in enumerate(parsed):
         at = f"{where}: point {k}"
-        here = {**known, **dict(zip(support.unknowns, values))}
-        check_steps(steps, rows, here, at, "(S18)")
-        need(len(here) == len(chart.unknowns), f"{at}: (S18) an unknown is not known after the steps")
+        values, steps = members(point, "values steps", at)
+        parsed.append((tuple(a_residue(w, rows.p, at) for w in a_list(values, f"{at}: values")), steps))
+        need(len(values) == len(span.unknowns), f"{at}: (S15) another number of values")
+    check_kernel(span, [values for values, _ in parsed], where)
+    for k, (values, steps) in enumerate(parsed):
+        check_steps(steps, rows, {**known, **dict(zip(span.unknowns, values))}, f"{where}: point {k}: (S18)")
     return len(parsed)
 
 
-def check_steps(steps, rows, known, where, condition):
-    for t, step in enumerate(steps):
-        need(type(step) is dict and step.get("kind") == "linear", f"{where}: step {t}: {condition} not a linear step")
-        check_linear(step, rows, known, f"{where}: step {t}")
-
-
-def check_kernel(support, points, where):
-    """(S17): the points span the kernel of the matrix of (S16)."""
-    p, matrix = support.rows.p, support.matrix()
-    need(distinct(points), f"{where}: (S17) two points are the same")
-    entries_of_matrix, inner = sum(map(len, matrix)), set.intersection(*support.neighbours())
+def check_kernel(span, points, where):
+    """(S15) to (S17): the points span the kernel of the matrix of coefficients."""
+    p, matrix = span.rows.p, span.matrix()
+    need(distinct(points), f"{where}: (S15) two points are the same")
+    entries_of_matrix, inner = sum(map(len, matrix)), set.intersection(*span.neighbours())
     images = []
     for values in points:
-        support.meter.charge(SPARSE * (len(support.exponents) * (len(values) + 1) + entries_of_matrix))
-        vector = {a: power(values, a, p) for a in support.exponents}
+        span.meter.charge(SPARSE * (len(span.exponents) * (len(values) + 1) + entries_of_matrix))
+        vector = {a: power(values, a, p) for a in span.exponents}
         entries = list(vector.values())
         fits = all(sum(v * entries[c] for c, v in row.items()) % p == 0 for row in matrix)
-        need(fits, f"{where}: (S17) a minor does not vanish at a point")
-        images.append({k: vector[a] for k, a in enumerate(support.exponents) if a in inner and vector[a]})
-    need(rank_of(images, p, support.meter) == len(points), f"{where}: (S17) the points are not independent")
-    free = len(support.exponents) - rank_of(matrix, p, support.meter)
+        need(fits, f"{where}: (S16) a minor does not vanish at a point")
+        images.append({k: vector[a] for k, a in enumerate(span.exponents) if a in inner and vector[a]})
+    need(rank_of(images, p, span.meter) == len(points), f"{where}: (S17) the points are not independent")
+    free = len(span.exponents) - rank_of(matrix, p, span.meter)
     need(free == len(points), f"{where}: (S17) {len(points)} points, but {free} dimensions")
 
 

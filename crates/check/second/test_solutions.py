@@ -65,14 +65,13 @@ def minor(cols, rows=(0, 1, 2), plus=(), minus=()):
 
 # Two columns at one end and one at the other give s - 1 and t - 1, and these times s and t.
 MINORS = [minor(cols) for cols in ([0, 1, 3], [0, 1, 4], [0, 3, 4], [1, 3, 4])]
-SUPPORT = {"kind": "support", "unknowns": [0, 1], "bounds": [1, 1], "absent": [], "minors": MINORS}
-# With two columns at a and one at b no term has both scales.
-FEWER = {"kind": "support", "unknowns": [0, 1], "bounds": [1, 1], "absent": [[1, 1]], "minors": MINORS[:2]}
 POINTS = {
     "centres": centres(5, 7),
-    **{name: SUPPORT[name] for name in ("unknowns", "bounds", "absent", "minors")},
+    **{"unknowns": [0, 1], "bounds": [1, 1], "absent": [], "minors": MINORS},
     "points": [{"values": ["1", "1"], "steps": []}],
 }
+# With two columns at a and one at b no term has both scales.
+FEWER = {**POINTS, "absent": [[1, 1]], "minors": MINORS[:2]}
 
 
 def upper(steps=(), chart=HALF_EDGES, points=None):
@@ -329,14 +328,13 @@ class Costs(Case):
     def test_limits(self):
         # Thousands of shifts, each with every exponent of the minor, where exponents are absent.
         exponents = list(map(list, itertools.product(range(64), range(64))))
-        wide = {**SUPPORT, "bounds": [63, 63]}
-        self.too_large(10**5, upper=upper([{**wide, "absent": exponents[:4000]}]))
+        wide = {**POINTS, "bounds": [63, 63]}
+        self.too_large(10**5, upper=upper(points={**wide, "absent": exponents[:4000]}))
         # Ranks of 4096 columns.
-        self.too_large(10**8, upper=upper([wide]))
+        self.too_large(10**8, upper=upper(points=wide))
         points = [{"values": ["1", str(k)], "steps": []} for k in range(4000)]
-        points = {**POINTS, "bounds": [63, 63], "minors": [], "points": points}
-        self.too_large(10**8, upper=upper(points=points))
-        for parts in ({"upper": upper([LINEAR])}, {"upper": upper([SUPPORT])}, {"upper": upper(points=POINTS)}):
+        self.too_large(10**8, upper=upper(points={**wide, "minors": [], "points": points}))
+        for parts in ({"upper": upper([LINEAR])}, {"upper": upper(points=POINTS)}):
             self.too_large(1000, **parts)
 
 
@@ -388,11 +386,11 @@ class Charts(Case):
         linear = {"kind": "linear", "freed": [4, 5], "settled": [0, 1]}
         self.assertEqual(bound(BICLIQUE, upper=upper([linear], {**chart, "unknowns": [[2, 1], [3, 1]]})), (1, 1))
         minors = [minor(cols, range(6)) for cols in itertools.combinations(range(9), 6)]
-        support = {"kind": "support", "unknowns": [0, 1], "bounds": [2, 1], "absent": [], "minors": minors}
+        points = {**POINTS, "bounds": [2, 1], "minors": minors}
         chart = {**chart, "unknowns": [[1, 1], [3, 1]]}
-        self.assertEqual(bound(BICLIQUE, upper=upper([support], chart)), (1, 1))
+        self.assertEqual(bound(BICLIQUE, upper=upper([], chart, points)), (1, 1))
         words = "(S13) a degree is above its bound"
-        self.rejects(BICLIQUE, words, upper=upper([{**support, "bounds": [1, 1]}], chart))
+        self.rejects(BICLIQUE, words, upper=upper([], chart, {**points, "bounds": [1, 1]}))
 
     def test_s7(self):
         original = upper([LINEAR])
@@ -477,37 +475,41 @@ class Linear(Case):
             self.assertIn(words, str(caught.exception))
 
 
-class Supports(Case):
-    """(S12) to (S16)."""
+class Points(Case):
+    """(S12) to (S18)."""
 
-    def step(self, words, original=SUPPORT, steps=(), **changes):
-        self.rejects(BICLIQUE, words, upper=upper([*steps, {**original, **changes}]))
+    def points(self, words, original=POINTS, steps=(), **changes):
+        self.rejects(BICLIQUE, words, upper=upper(steps, points={**original, **changes}))
 
     def test_they_hold(self):
-        for support in (SUPPORT, FEWER):
-            self.assertEqual(bound(BICLIQUE, upper=upper([support])), (1, 1))
-        # A larger box, with shifts; the minors of the freed rows are one larger.
-        wide = {**SUPPORT, "bounds": [2, 1]}
-        self.assertEqual(bound(BICLIQUE, upper=upper([wide])), (1, 1))
+        # In a larger box there are shifts.
+        for points in (POINTS, FEWER, {**POINTS, "bounds": [2, 1]}):
+            self.assertEqual(bound(BICLIQUE, upper=upper(points=points)), (1, 1))
+        # One unknown by its values, the other by a step; the minors of the freed rows are one larger.
         freed = [minor([0, 1, 3, 4], [0, 1], [2], [2]), minor([0, 1, 3, 5], [0, 1], [2], [2])]
-        one = {"kind": "support", "unknowns": [0], "bounds": [1], "absent": [], "minors": freed}
-        self.assertEqual(bound(BICLIQUE, upper=upper([one, {**LINEAR, "freed": [2], "settled": [1]}])), (1, 1))
+        step = {"kind": "linear", "freed": [2], "settled": [1]}
+        one = {**POINTS, "unknowns": [0], "bounds": [1], "minors": freed, "points": [{"values": ["1"], "steps": [step]}]}
+        self.assertEqual(bound(BICLIQUE, upper=upper(points=one)), (1, 1))
+        one["points"][0]["steps"] = []
+        self.rejects(BICLIQUE, "point 0: (S18): an unknown is not known", upper=upper(points=one))
+        one["points"][0]["steps"] = [{**step, "kind": "minors"}]
+        self.rejects(BICLIQUE, "point 0: (S18): step 0: there is no such kind", upper=upper(points=one))
 
     def test_s12(self):
-        self.step("(S12) no unknown, or one twice", unknowns=[])
-        self.step("(S12) no unknown, or one twice", unknowns=[0, 0])
-        self.step("unknowns: 2 is out of range", unknowns=[0, 2])
-        self.step("(S12) an unknown is known already", steps=[LINEAR])
-        self.step("(S12) another number of bounds", bounds=[1])
-        self.step("bounds: 0 is below 1", bounds=[1, 0])
-        self.step("(S12) more than 4096 exponents", bounds=[63, 64])
-        self.step("(S12) an exponent has another length", absent=[[1]])
-        self.step("absent: 2 is out of range", absent=[[1, 2]])
-        self.step("(S12) absent is not increasing", FEWER, absent=[[1, 1], [1, 1]])
+        self.points("(S12) no unknown, or one twice", unknowns=[])
+        self.points("(S12) no unknown, or one twice", unknowns=[0, 0])
+        self.points("unknowns: 2 is out of range", unknowns=[0, 2])
+        self.points("(S12) an unknown is known already", steps=[LINEAR])
+        self.points("(S12) another number of bounds", bounds=[1])
+        self.points("bounds: 0 is below 1", bounds=[1, 0])
+        self.points("(S12) more than 4096 exponents", bounds=[63, 64])
+        self.points("(S12) an exponent has another length", absent=[[1]])
+        self.points("absent: 2 is out of range", absent=[[1, 2]])
+        self.points("(S12) absent is not increasing", FEWER, absent=[[1, 1], [1, 1]])
 
     def test_s13(self):
         def one(bad, words, **changes):
-            self.step(words, minors=[bad], **changes)
+            self.points(words, minors=[bad], **changes)
 
         one(minor([0, 1]), "(S13) it is not square")
         one(minor([0, 1], [0, 1]), "(S13) it is too small")
@@ -522,74 +524,45 @@ class Supports(Case):
 
     def test_s14(self):
         # Columns with two at b: both scales occur together.
-        self.step("minor 0: (S14) the coefficient of [1, 1] need not vanish", FEWER, minors=MINORS[2:])
+        self.points("minor 0: (S14) the coefficient of [1, 1] need not vanish", FEWER, minors=MINORS[2:])
         # The coefficient of the first power of one scale does not vanish.
-        self.step("(S14) the coefficient of [0, 1] need not vanish", FEWER, absent=[[0, 1], [1, 1]])
+        self.points("(S14) the coefficient of [0, 1] need not vanish", FEWER, absent=[[0, 1], [1, 1]])
         # By a shift: 1 + [1, 0] with [0, 1] is [1, 1] in a larger box.
         wide = {"bounds": [2, 1], "absent": [[1, 1]]}
-        self.step("(S14) the coefficient of [0, 1] need not vanish", FEWER, **wide)
+        self.points("(S14) the coefficient of [0, 1] need not vanish", FEWER, **wide)
 
     def test_s14_costs_no_product_of_exponents_and_shifts(self):
         spent, charge = [], solutions.Meter.charge
         solutions.Meter.charge = lambda meter, operations: (spent.append(operations), charge(meter, operations))[1]
         try:
             many = {"bounds": [2047, 1], "absent": [[k, 1] for k in range(2048)]}
-            self.step("(S14) the coefficient of", FEWER, **many)
+            self.points("(S14) the coefficient of", FEWER, **many)
         finally:
             solutions.Meter.charge = charge
         self.assertLess(sum(spent), 10**7)
 
-    def test_s15(self):
-        flat = {"unknowns": [0, 1], "bounds": [1, 1], "absent": [[0, 1], [1, 0], [1, 1]], "minors": []}
-        self.step("(S15) an unknown that the exponents do not tell apart", **flat)
-
-    def test_s16(self):
-        for k, left in enumerate([MINORS[:1], MINORS[:2], MINORS[1:2] * 3, []]):
-            rank = [1, 2, 1, 0][k]
-            self.step(f"(S16) the coefficients have the rank {rank}, not 3", minors=left)
-        # At centres in a plane all minors vanish.
-        values = [["0", "0", "0"], ["7", "3", "0"], ["1", "5", "0"], ["2", "9", "0"], ["3", "1", "0"]]
-        self.broken(upper([SUPPORT]), ["centres", "values"], values, "(S16) the coefficients have the rank 0, not 3")
-
     def test_kinds(self):
-        self.step("step 0 has no such kind", kind="minors")
-        self.rejects(BICLIQUE, "step 0 has no such kind", upper=upper([7]))
+        self.rejects(BICLIQUE, "step 0: there is no such kind", upper=upper([{**LINEAR, "kind": "minors"}]))
+        self.rejects(BICLIQUE, "step 0 is not an object", upper=upper([7]))
         self.rejects(BICLIQUE, "the member minors is unknown", upper=upper([{**LINEAR, "minors": []}]))
         self.rejects(BICLIQUE, "an unknown is not known after the steps", upper=upper())
 
-
-class Points(Case):
-    """(S17), (S18)."""
-
-    def points(self, words, **changes):
-        self.rejects(BICLIQUE, words, upper=upper(points={**POINTS, **changes}))
-
-    def test_they_hold(self):
-        self.assertEqual(bound(BICLIQUE, upper=upper(points=POINTS)), (1, 1))
-        # One unknown by its values, the other by a step.
-        freed = [minor([0, 1, 3, 4], [0, 1], [2], [2]), minor([0, 1, 3, 5], [0, 1], [2], [2])]
-        step = {"kind": "linear", "freed": [2], "settled": [1]}
-        one = {**POINTS, "unknowns": [0], "bounds": [1], "minors": freed, "points": [{"values": ["1"], "steps": [step]}]}
-        self.assertEqual(bound(BICLIQUE, upper=upper(points=one)), (1, 1))
-        one["points"][0]["steps"] = []
-        self.rejects(BICLIQUE, "point 0: (S18) an unknown is not known", upper=upper(points=one))
-        one["points"][0]["steps"] = [SUPPORT]
-        self.rejects(BICLIQUE, "point 0: step 0: (S18) not a linear step", upper=upper(points=one))
-
-    def test_s17(self):
+    def test_s15_to_s17(self):
         first = POINTS["points"][0]
-        self.points("(S17) a minor does not vanish at a point", points=[{"values": ["1", "2"], "steps": []}])
-        self.points("(S17) two points are the same", points=[first, first])
-        self.points("(S17) another number of values", points=[{"values": ["1"], "steps": []}])
+        self.points("(S16) a minor does not vanish at a point", points=[{"values": ["1", "2"], "steps": []}])
+        self.points("(S15) two points are the same", points=[first, first])
+        self.points("(S15) another number of values", points=[{"values": ["1"], "steps": []}])
         self.points("point 0 is out of range", points=[{"values": ["1", str(P)], "steps": []}])
         self.points("(S17) 0 points, but 1 dimensions", points=[])
-        self.points("(S17) 1 points, but 2 dimensions", minors=MINORS[:2])
+        for few, free in ((MINORS[:1], 3), (MINORS[:2], 2), (MINORS[1:2] * 3, 3)):
+            self.points(f"(S17) 1 points, but {free} dimensions", minors=few)
+        # At centres in a plane all minors vanish.
+        values = [["0", "0", "0"], ["7", "3", "0"], ["1", "5", "0"], ["2", "9", "0"], ["3", "1", "0"]]
+        self.points("(S17) 1 points, but 4 dimensions", centres={**POINTS["centres"], "values": values})
         # Without the exponents of one scale alone nothing is left to which both can be added.
         self.points("(S17) the points are not independent", absent=[[0, 1], [1, 0], [1, 1]], minors=[])
         two = [{"values": [scale], "steps": []} for scale in ("1", "2")]
         self.points("(S17) the points are not independent", unknowns=[0], bounds=[1], minors=[], points=two)
-        self.points("(S12) another number of bounds", bounds=[1])
-        self.points("(S13) it is too small", minors=[minor([0, 1], [0, 1])])
         self.points("(S14) the coefficient of [1, 1] need not vanish", absent=[[1, 1]])
         self.points("(S7) another number of centres", centres=centres(4))
 

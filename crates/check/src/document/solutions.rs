@@ -33,12 +33,6 @@ kinds! {
     "step"
     Step {
         "linear" Linear { freed: Vec<usize>, settled: Vec<usize> }
-        "support" Support {
-            unknowns: Vec<usize>, bounds: Vec<usize>, absent: Vec<Vec<usize>>, minors: Vec<Minor>,
-        }
     }
-    members {
-        freed: Vec<usize>, settled: Vec<usize>, unknowns: Vec<usize>, bounds: Vec<usize>,
-        absent: Vec<Vec<usize>>, minors: Vec<Minor>,
-    }
+    members { freed: Vec<usize>, settled: Vec<usize> }
 }

@@ -3,9 +3,9 @@
 use super::dense::{Sparse, columns};
 use super::system::{Known, System};
 use crate::algebra::Ring;
-use crate::document::solutions::Linear;
+use crate::document::solutions::{Linear, Step};
 use crate::elimination::Echelon;
-use crate::rejection::{Checked, Failure, ensure};
+use crate::rejection::{Checked, Failure, Within, ensure};
 
 /// A row of which both sides stand for themselves.
 struct Freed {
@@ -14,8 +14,18 @@ struct Freed {
     side: usize,
 }
 
+/// Verifies steps, one after the other.
+pub(super) fn check_all(steps: &[Step], system: &System, known: &mut Known) -> Checked<()> {
+    for (k, step) in steps.iter().enumerate() {
+        let Step::Linear(linear) = step;
+        let checked = check(linear, system, known);
+        checked.within(|| format!("steps[{k}] ({})", step.kind()))?;
+    }
+    Ok(())
+}
+
 /// Verifies a step, and makes its unknowns known.
-pub(super) fn check(step: &Linear, system: &System, known: &mut Known) -> Checked<()> {
+fn check(step: &Linear, system: &System, known: &mut Known) -> Checked<()> {
     let freed = freed_rows(step, system, known)?;
     let relations = relations(step, system, known)?;
     ensure!(!step.settled.is_empty(), "no unknown is settled");

@@ -4,8 +4,8 @@
 //! In: the members of the one piece, and the evidence. `rounds` take nodes away, or rest on `stresses`, and
 //! merge `members`.
 //! Those left are a core with a few unknown scales (`chart`, `system`). Out: bounds. An upper one comes
-//! from steps that make unknowns known (`linear`; `support`, of `minors` and their `zeros`) and from the
-//! points that solutions are near to (`points`), a lower one from simple points (`simple`) of a tight core.
+//! from steps that make unknowns known (`linear`) and from the points that solutions are near to
+//! (`points`, by the `span` of `minors` and their `zeros`), a lower one from simple points (`simple`) of a tight core.
 //! `dense` has the linear algebra; the text is `document::solutions`.
 
 mod chart;
@@ -16,12 +16,12 @@ mod minors;
 mod points;
 mod rounds;
 mod simple;
+mod span;
 mod stresses;
-mod support;
 mod system;
 mod zeros;
 
-use crate::document::solutions::{Lower, Solutions, Step, Upper};
+use crate::document::solutions::{Lower, Solutions, Upper};
 use crate::evidence::Piece;
 use crate::limits::Meter;
 use crate::rejection::{Checked, Within, ensure};
@@ -133,18 +133,12 @@ fn bounds(evidence: &Solutions, left: &[Vec<u32>], meter: &Meter) -> Checked<Cou
     Ok(Count { at_least, at_most })
 }
 
-/// An upper bound (theory, Theorems 10.5, 10.6 and 10.8).
+/// An upper bound (theory, Theorems 10.6 and 10.8).
 fn at_most(upper: &Upper, left: &[Vec<u32>], meter: &Meter) -> Checked<usize> {
     let chart = Chart::new(&upper.chart, left, meter).within(|| "chart".into())?;
     let system = System::new(&chart, &upper.centres, meter).within(|| "centres".into())?;
     let mut known: Known = vec![None; chart.unknowns];
-    for (k, step) in upper.steps.iter().enumerate() {
-        let checked = match step {
-            Step::Linear(step) => linear::check(step, &system, &mut known),
-            Step::Support(step) => support::check(step, &system, &mut known),
-        };
-        checked.within(|| format!("steps[{k}] ({})", step.kind()))?;
-    }
+    linear::check_all(&upper.steps, &system, &mut known)?;
     if let Some(points) = &upper.points {
         return points::check(points, &chart, &known, meter).within(|| "points".into());
     }

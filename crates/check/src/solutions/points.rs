@@ -3,13 +3,13 @@
 
 use super::chart::Chart;
 use super::linear;
-use super::support::{Span, Text};
+use super::span::Span;
 use super::system::{Known, System, ensure_all_known};
 use crate::algebra::{Field, Ring};
-use crate::document::solutions::{Point, Points, Step};
+use crate::document::solutions::{Point, Points};
 use crate::elimination::Echelon;
 use crate::limits::Meter;
-use crate::rejection::{Checked, Failure, Within, ensure};
+use crate::rejection::{Checked, Within, ensure};
 use std::collections::HashSet;
 
 /// Verifies that there are no more solutions than points, and returns how many these are.
@@ -18,16 +18,7 @@ pub(super) fn check(text: &Points, chart: &Chart, known: &Known, meter: &Meter) 
     // What steps made known is one, at these centres as well.
     let one = system.field.one;
     let known: Known = known.iter().map(|value| value.map(|_| one)).collect();
-    let span = Span::new(
-        &system,
-        &known,
-        Text {
-            unknowns: &text.unknowns,
-            bounds: &text.bounds,
-            absent: &text.absent,
-            minors: &text.minors,
-        },
-    )?;
+    let span = Span::new(&system, &known, text)?;
     let mut found = Found {
         inner: inner(&system, &span)?,
         values: Echelon::new(&system.field, span.is_present.len(), meter),
@@ -81,13 +72,7 @@ impl Found<'_> {
         for (&f, &value) in text.unknowns.iter().zip(&values) {
             known[f] = Some(value);
         }
-        for (k, step) in point.steps.iter().enumerate() {
-            let Step::Linear(step) = step else {
-                return Err(Failure::rejected(format!("steps[{k}] is not `linear`")));
-            };
-            let checked = linear::check(step, self.system, &mut known);
-            checked.within(|| format!("steps[{k}]"))?;
-        }
+        linear::check_all(&point.steps, self.system, &mut known)?;
         ensure_all_known(&known)
     }
 

@@ -7,7 +7,7 @@
 use super::objects::{Big, bigs, object, objects, written};
 use crate::decide::evidence::Evidence;
 use crate::decide::{Joined, Round, Rounds, Value, Verdict};
-use crate::solutions::{AtMost, Chart, Linear, Lower, Minor, One, Part, Place, Solutions, Upper};
+use crate::solutions::{AtMost, Chart, Linear, Lower, Minor, Part, Place, Solutions, Upper};
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
 use std::fmt;
@@ -95,23 +95,6 @@ written! {
     }
     Centres<'_>: |own| { prime: Big(own.0.prime), values: own.values() }
     Linear: |own| { kind: "linear", freed: own.freed, settled: own.settled }
-}
-
-impl Serialize for One {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Self::Linear(linear) => linear.serialize(serializer),
-            Self::Support {
-                unknowns,
-                bounds,
-                absent,
-                minors,
-            } => object!(serializer, {
-                kind: "support", unknowns: unknowns, bounds: bounds, absent: absent,
-                minors: minors,
-            }),
-        }
-    }
 }
 
 /// What is said of the number of solutions, with its evidence. `None` where there is nothing to

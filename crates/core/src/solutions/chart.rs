@@ -119,51 +119,6 @@ impl Core {
         Some(core)
     }
 
-    /// The core of a chart; `None` if it is no chart.
-    pub(super) fn of_chart(chart: &Chart) -> Option<Self> {
-        let mut nodes = chart.members.concat();
-        nodes.sort_unstable();
-        nodes.dedup();
-        let place = |v: &u32| nodes.binary_search(v).ok();
-        let bodies = chart
-            .members
-            .len()
-            .checked_sub(2 * chart.half_edges.len())?;
-        let mut unknowns = 0;
-        let mut scale = |member: usize, node: u32| {
-            let is_unknown = |other: &&Scale| (other.member, other.node) == (member, node);
-            chart.unknowns.iter().find(is_unknown).map(|_| {
-                unknowns += 1;
-                unknowns - 1
-            })
-        };
-        let mut body_scales = Vec::with_capacity(bodies);
-        for (k, body) in chart.members[..bodies].iter().enumerate() {
-            body_scales.push(body.iter().map(|&v| scale(k, v)).collect());
-        }
-        let halves = (0..).zip(&chart.half_edges);
-        let half_edge_scales = halves.map(|(k, half)| scale(bodies + 2 * k + 1, half[2]));
-        let half_edge_scales = half_edge_scales.collect();
-        let body = |body: &Vec<u32>| body.iter().map(place).collect::<Option<Vec<_>>>();
-        let half_edge = |&[v, a, b]: &[u32; 3]| Some([place(&v)?, place(&a)?, place(&b)?]);
-        let half_edges = chart.half_edges.iter().map(half_edge);
-        let half_edges = half_edges.collect::<Option<Vec<_>>>()?;
-        let mut number = vec![None; nodes.len()];
-        let gone = |v: usize| half_edges.iter().any(|half| half[0] == v);
-        let left = (0..nodes.len()).filter(|&v| !gone(v));
-        left.enumerate().for_each(|(k, v)| number[v] = Some(k));
-        let bodies = chart.members[..bodies].iter().map(body);
-        Some(Self {
-            number,
-            bodies: bodies.collect::<Option<_>>()?,
-            half_edges,
-            body_scales,
-            half_edge_scales,
-            unknowns,
-            nodes,
-        })
-    }
-
     /// Puts scales into a spanning tree as long as they join what was apart.
     fn choose_tree(&mut self) {
         let mut class: Vec<usize> = (0..self.nodes.len()).collect();

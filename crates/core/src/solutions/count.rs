@@ -1,12 +1,12 @@
 //! How many solutions: what is tried, in which order.
 
 use super::chart::Core;
-use super::evidence::{AtMost, Lower, One, Place, Solutions, Upper};
+use super::evidence::{AtMost, Linear, Lower, Place, Solutions, Upper};
 use super::linear::settle;
 use super::members::{MOST_NODES, Members, nodes_of};
 use super::points::{NoBound, at_most};
 use super::simple::{self, Point};
-use super::support::MinorSpan;
+use super::span::MinorSpan;
 use super::system::{System, Values, subsets};
 use crate::contract::Contraction;
 use crate::geometry::draw::{DrawKey, centres_mod};
@@ -90,13 +90,18 @@ impl Size {
 /// Bounds are proofs, whatever was drawn (docs/theory.md, section 10). `seed` selects centres.
 /// Nothing stops this; [`decide`](crate::decide::decide) counts under a watch.
 pub fn count(graph: &Graph, seed: u64) -> Option<Solutions> {
-    let contraction = Contraction::new(graph, Model::default());
-    let members = nodes_of(&contraction, &contraction.finals, &contraction.loose);
+    let members = members_of(graph);
     let covered: BTreeSet<u32> = members.iter().flatten().copied().collect();
     if covered.len() < graph.nodes() || graph.nodes() < 2 {
         return None;
     }
     unwatched(|task| count_in(graph, members, false, seed, task)).0
+}
+
+/// Bodies and edges of the contraction.
+fn members_of(graph: &Graph) -> Vec<Vec<u32>> {
+    let contraction = Contraction::new(graph, Model::default());
+    nodes_of(&contraction, &contraction.finals, &contraction.loose)
 }
 
 /// As [`count`], for the part of a graph that uniquely determined members with these nodes form: bodies
@@ -236,14 +241,14 @@ fn count_core(members: &Members, times: usize, draws: &Draws<'_>) -> Option<Solu
                 return (time > 0).then_some(best);
             };
             charted.conclude(draws, &mut best);
-            charted.few(draws, &mut best);
+            (1..=FEW).for_each(|size| charted.some(size, draws, &mut best));
             if best.exactly().is_some() || draws.work.is_stopped() {
                 return Some(best);
             }
             charts.push(charted);
         }
         for charted in charts.iter_mut().filter(|_| !is_many) {
-            charted.more(draws, &mut best);
+            charted.some(MOST_AT_ONCE, draws, &mut best);
             if best.exactly().is_some() || draws.work.is_stopped() {
                 return Some(best);
             }
@@ -290,9 +295,7 @@ struct Charted {
     /// One, where this is shown.
     values: Values,
     /// Why.
-    ones: Vec<One>,
-    /// The spans of a few of the other unknowns.
-    spans: Vec<MinorSpan>,
+    ones: Vec<Linear>,
     /// Unknowns whose points are not all rational at these centres.
     irrational: Vec<Vec<usize>>,
 }
@@ -306,14 +309,13 @@ impl Charted {
             return None;
         }
         let mut values = vec![None; core.unknowns];
-        let (ones, spans) = ones(&system, &mut values);
+        let ones = settle(&system, &mut values);
         Some(Self {
             core,
             is_tight,
             centres,
             values,
             ones,
-            spans,
             irrational: Vec::new(),
         })
     }
@@ -342,25 +344,18 @@ impl Charted {
         draws.place(&self.core, centres)
     }
 
-    /// Bounds by points in the few unknowns whose spans are known.
-    fn few(&mut self, draws: &Draws<'_>, best: &mut Solutions) {
-        for span in std::mem::take(&mut self.spans) {
+    /// Bounds by points in so many of the unknowns.
+    fn some(&mut self, size: usize, draws: &Draws<'_>, best: &mut Solutions) {
+        subsets(&open(&self.values), size, &mut |unknowns| {
             if best.exactly().is_some() || draws.work.is_stopped() {
-                return;
+                return false;
             }
-            self.points(&span, draws, best);
-        }
-    }
-
-    /// Bounds by points in more unknowns.
-    fn more(&mut self, draws: &Draws<'_>, best: &mut Solutions) {
-        subsets(&open(&self.values), MOST_AT_ONCE, &mut |unknowns| {
             let system = self.system(&self.centres, draws);
             let span = system.and_then(|system| MinorSpan::new(&system, &self.values, unknowns));
             if let Some(span) = span {
                 self.points(&span, draws, best);
             }
-            best.exactly().is_none() && !draws.work.is_stopped()
+            true
         });
     }
 
@@ -437,18 +432,24 @@ fn redraw(charts: &[Charted], draws: &Draws<'_>, best: &mut Solutions) {
     }
 }
 
-/// The simple points of a core at the centres that are given, as many as are known to be elsewhere,
-/// in the same chart. `None` if they are not all residues, or not simple.
-pub(super) fn points_at(known: &Solutions, draws: &Draws<'_>) -> Option<Lower> {
-    let unknowns = &known.upper.as_ref()?.points.as_ref()?.1.unknowns;
-    let core = Core::of_chart(&known.lower.as_ref()?.place.chart)?;
-    let mut charted = Charted::new(core, true, draws)?;
-    let system = System::new(draws.field, &charted.core, &charted.centres)?;
-    let span = MinorSpan::new(&system, &charted.values, unknowns)?;
-    let mut best = Solutions::nothing(None);
-    charted.points(&span, draws, &mut best);
-    let all = best.at_least == known.at_least && best.at_most == known.at_most;
-    best.lower.filter(|_| all)
+/// The simple points of a core at the centres that are given, as many as are known to be elsewhere.
+/// `None` if they are not all residues, or not simple.
+pub(super) fn points_at(known: &Solutions, graph: &Graph, draws: &Draws<'_>) -> Option<Lower> {
+    let mut members = members_of(graph);
+    retain_shared(&mut members);
+    let members = Members::new(&members)?;
+    for chart in 0..CHARTS {
+        let mut charted = Charted::new(Core::new(&members, chart)?, true, draws)?;
+        let mut best = Solutions::nothing(None);
+        (1..=MOST_AT_ONCE).for_each(|size| charted.some(size, draws, &mut best));
+        if (best.at_least, best.at_most) == (known.at_least, known.at_most) {
+            return best.lower;
+        }
+        if !charted.irrational.is_empty() {
+            break;
+        }
+    }
+    None
 }
 
 /// Whether u = 1 shows at these centres that the core is finite solvable (Lemma 10.9).
@@ -465,44 +466,6 @@ fn simple_points(system: &System<'_>, found: &AtMost) -> Vec<Point> {
         simple::point(system, &values).filter(|point| point.simple)
     });
     points.collect()
-}
-
-/// Shows that unknowns are one, as many as it can, and enters them. Also the spans of the unknowns
-/// that are left, of a few each.
-fn ones(system: &System<'_>, values: &mut Values) -> (Vec<One>, Vec<MinorSpan>) {
-    let mut steps = Vec::new();
-    loop {
-        steps.extend(settle(system, values).into_iter().map(One::Linear));
-        let open = open(values);
-        let mut found = None;
-        let mut others = Vec::new();
-        for size in 1..=FEW.min(open.len()) {
-            subsets(&open, size, &mut |unknowns| {
-                if let Some(span) = MinorSpan::new(system, values, unknowns) {
-                    match span.unique(system) {
-                        Some(absent) => found = Some((span, absent)),
-                        None => others.push(span),
-                    }
-                }
-                found.is_none() && !system.is_stopped()
-            });
-            if found.is_some() {
-                break;
-            }
-        }
-        let Some((span, absent)) = found else {
-            return (steps, others);
-        };
-        for &f in &span.unknowns {
-            values[f] = Some(system.field.from_u64(1));
-        }
-        steps.push(One::Support {
-            bounds: span.exponents.bounds.clone(),
-            absent: span.exponents.marked(&absent),
-            minors: span.minors(),
-            unknowns: span.unknowns,
-        });
-    }
 }
 
 /// The unknowns without value.

@@ -34,32 +34,13 @@ pub struct Place {
     pub centres: Vec<(u32, [u64; 3])>,
 }
 
-/// Evidence that some unknowns are one at all solutions.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum One {
-    /// By Theorem 10.6.
-    Linear(Linear),
-    /// By Theorem 10.5: the minors, with their shifts, have coefficients of a rank one less than there
-    /// are exponents.
-    Support {
-        /// The unknowns that are one.
-        unknowns: Vec<usize>,
-        /// The largest exponent of each.
-        bounds: Vec<usize>,
-        /// Exponents within the bounds at which all coefficients are zero by Theorem 10.7.
-        absent: Vec<Vec<usize>>,
-        /// Minors that vanish at all solutions.
-        minors: Vec<Minor>,
-    },
-}
-
 /// Evidence for an upper bound.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Upper {
     /// Where the unknowns are shown to be one.
     pub place: Place,
-    /// Unknowns that are one, in the order in which they are shown to be.
-    pub ones: Vec<One>,
+    /// How unknowns are shown to be one.
+    pub ones: Vec<Linear>,
     /// The points for the unknowns that are left, and where; nothing if none are.
     pub points: Option<(Place, AtMost)>,
 }

@@ -2,9 +2,8 @@
 //!
 //! In: a graph. It is contracted to members (`members`), whose shared nodes form a core with a
 //! few unknown scales (`chart`). Out: bounds for the number of solutions and what they rest
-//! on: scales that are one by linear algebra (`linear`, Theorem 10.6) or by the span of minors
-//! (`support`, Theorem 10.5), points near which all others are (`points`, Theorem 10.8), and
-//! simple points of tight cores (`simple`, Theorem 10.10). Every bound is a proof; what it rests on
+//! on: scales that are one by linear algebra (`linear`, Theorem 10.6), points near which all others
+//! are, by the span of minors (`points` and `span`, Theorem 10.8), and simple points of tight cores (`simple`, Theorem 10.10). Every bound is a proof; what it rests on
 //! is in `evidence`. A second solution can be looked at (`witness`).
 
 mod chart;
@@ -17,7 +16,7 @@ mod minors;
 mod points;
 mod roots;
 mod simple;
-mod support;
+mod span;
 mod system;
 #[cfg(test)]
 mod tests;
@@ -27,7 +26,7 @@ mod zeros;
 pub use count::count;
 pub(crate) use count::count_in;
 pub use evidence::{
-    AtMost, Chart, Linear, Lower, Minor, One, Part, Place, Rule, Scale, Solutions, Upper,
+    AtMost, Chart, Linear, Lower, Minor, Part, Place, Rule, Scale, Solutions, Upper,
 };
 pub use members::MOST_NODES;
 pub(crate) use members::nodes_of;

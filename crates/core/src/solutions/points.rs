@@ -5,7 +5,7 @@ use super::evidence::AtMost;
 use super::exponents::Exponents;
 use super::linear::settle;
 use super::roots::{NoVectors, left_eigenvectors, transport};
-use super::support::MinorSpan;
+use super::span::MinorSpan;
 use super::system::{System, Values};
 use crate::linalg::prime::PrimeField;
 use std::iter;

@@ -2,7 +2,7 @@ use super::chart::Core;
 use super::evidence::Part;
 use super::members::{Members, nodes_of};
 use super::simple;
-use super::support::MinorSpan;
+use super::span::MinorSpan;
 use super::system::{System, Values};
 use super::{Solutions, count};
 use crate::contract::Contraction;

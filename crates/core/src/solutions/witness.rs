@@ -83,7 +83,7 @@ impl Solutions {
         let lower = unwatched(|task| {
             let work = task.at(Step::Solutions).begin(0);
             let draws = Draws::new(graph, seed, &work).at(centres.clone());
-            Ok(points_at(self, &draws))
+            Ok(points_at(self, graph, &draws))
         })?;
         let field = PrimeField::new(lower.place.prime).ok()?;
         let families = other_points(&lower).map(|point| {

@@ -1,46 +1,13 @@
-//! Steps by the span of minors: conditions (S12) to (S16) of section 12 (theory, Theorem 10.5).
+//! The span of minors: conditions (S12) to (S14) of section 12 (theory, Theorem 10.8).
 
 use super::dense::{ENTRY, Sparse};
 use super::minors::{Exponents, Place};
 use super::system::{Known, System};
 use super::zeros::Pattern;
-use crate::document::solutions::{Minor, Support};
+use crate::document::solutions::{Minor, Points};
 use crate::elimination::Echelon;
 use crate::rejection::{Checked, Failure, Within, ensure};
 use std::collections::HashSet;
-
-/// Verifies a step, and makes its unknowns known to be one.
-pub(super) fn check(step: &Support, system: &System, known: &mut Known) -> Checked<()> {
-    let span = Span::new(
-        system,
-        known,
-        Text {
-            unknowns: &step.unknowns,
-            bounds: &step.bounds,
-            absent: &step.absent,
-            minors: &step.minors,
-        },
-    )?;
-    span.check_differences(&step.unknowns)?;
-    ensure!(
-        span.shifts.rank() + 1 == span.present(),
-        "the coefficients have rank {} for {} exponents",
-        span.shifts.rank(),
-        span.present()
-    );
-    for &f in &step.unknowns {
-        known[f] = Some(system.field.one);
-    }
-    Ok(())
-}
-
-/// What steps and points have in common.
-pub(super) struct Text<'t> {
-    pub unknowns: &'t [usize],
-    pub bounds: &'t [usize],
-    pub absent: &'t [Vec<usize>],
-    pub minors: &'t [Minor],
-}
 
 /// The coefficients of minors and their shifts.
 pub(super) struct Span<'t> {
@@ -51,8 +18,8 @@ pub(super) struct Span<'t> {
 }
 
 impl<'t> Span<'t> {
-    pub(super) fn new(system: &'t System, known: &Known, text: Text<'t>) -> Checked<Span<'t>> {
-        check_unknowns(text.unknowns, known)?;
+    pub(super) fn new(system: &'t System, known: &Known, text: &'t Points) -> Checked<Span<'t>> {
+        check_unknowns(&text.unknowns, known)?;
         ensure!(
             text.bounds.len() == text.unknowns.len(),
             "{} bounds for {} unknowns",
@@ -66,19 +33,19 @@ impl<'t> Span<'t> {
             constant.unwrap_or_default()
         );
         let exponents = Exponents {
-            bounds: text.bounds,
+            bounds: &text.bounds,
         };
         let many = || Failure::rejected("there are more than 4096 exponents");
         let count = exponents.count().ok_or_else(many)?;
         let mut span = Span {
-            is_present: is_present(&exponents, count, text.absent)?,
+            is_present: is_present(&exponents, count, &text.absent)?,
             shifts: Echelon::new(&system.field, count, system.meter),
             exponents,
         };
         let place = Place {
             system,
             known,
-            unknowns: text.unknowns,
+            unknowns: &text.unknowns,
         };
         for (k, minor) in text.minors.iter().enumerate() {
             let added = span.add(minor, &place);
@@ -147,21 +114,6 @@ impl<'t> Span<'t> {
             ensure!(
                 !pattern.has_transversal(exponent),
                 "the exponent {absent:?} is said to be absent, but there may be a coefficient"
-            );
-        }
-        Ok(())
-    }
-
-    /// (S15): the differences of A generate all exponents.
-    fn check_differences(&self, unknowns: &[usize]) -> Checked<()> {
-        let present = self.all_present();
-        for (place, f) in unknowns.iter().enumerate() {
-            let unit: Vec<usize> = (0..unknowns.len())
-                .map(|other| usize::from(other == place))
-                .collect();
-            ensure!(
-                present.iter().any(|e| self.has_sum(e, &unit)),
-                "no two exponents differ by one in unknown {f}"
             );
         }
         Ok(())

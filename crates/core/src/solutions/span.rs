@@ -1,4 +1,4 @@
-//! The span of minors in a few unknowns (docs/theory.md, Theorems 10.5 and 10.7).
+//! The span of minors in a few unknowns (docs/theory.md, Theorems 10.7 and 10.8).
 //!
 //! In: a system and some of its unknowns. Out: minors with independent polynomials, the rank of
 //! all their multiples within degree bounds, and the exponents that never occur.
@@ -97,20 +97,6 @@ impl MinorSpan {
         minors
             .map(|generator| generator.polynomial.minor.clone())
             .collect()
-    }
-
-    /// If only u = 1 is left (Theorem 10.5), the exponents that are absent: the rank is one less than
-    /// the number of the others, and their differences generate all of Z^unknowns.
-    pub(super) fn unique(&self, system: &System<'_>) -> Option<Vec<bool>> {
-        let seen = self.seen(&self.exponents);
-        let rank = self.shifts.dimension();
-        // What is seen is present; what is not is asked for only if that can matter.
-        if rank + 1 < seen.iter().filter(|seen| **seen).count() {
-            return None;
-        }
-        let absent = self.absent(system, &self.exponents, &seen);
-        let present = absent.iter().filter(|&&absent| !absent).count();
-        (rank + 1 == present && steps_everywhere(&self.exponents, &absent)).then_some(absent)
     }
 
     /// The exponents at which some shift of a generator has a coefficient at these centres.
@@ -268,15 +254,4 @@ impl Polynomial {
         let room: Vec<usize> = room.map(|(bound, degree)| bound - degree).collect();
         exponents.places(&room)
     }
-}
-
-/// Whether for every unknown some exponent and the next one are both present.
-fn steps_everywhere(exponents: &Exponents, absent: &[bool]) -> bool {
-    let all = exponents.all();
-    (0..exponents.bounds.len()).all(|f| {
-        let stride = exponents.stride(f);
-        all.iter().enumerate().any(|(place, exponent)| {
-            exponent[f] < exponents.bounds[f] && !absent[place] && !absent[place + stride]
-        })
-    })
 }
