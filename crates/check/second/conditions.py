@@ -41,7 +41,6 @@ import test_at_cameras  # noqa: E402
 import test_intrinsics  # noqa: E402
 import test_own_frame  # noqa: E402
 import test_parts  # noqa: E402
-import test_pebbles  # noqa: E402
 import test_solutions  # noqa: E402
 
 CHECKER = (
@@ -49,7 +48,7 @@ CHECKER = (
     own_frame, pieces, solutions, supposed, upper,
 )
 TESTS = (
-    test_base_lines, test_check, test_contradictions, test_displacements, test_at_cameras, test_intrinsics, test_own_frame, test_parts, test_pebbles, test_solutions,
+    test_base_lines, test_check, test_contradictions, test_displacements, test_at_cameras, test_intrinsics, test_own_frame, test_parts, test_solutions,
 )
 REFUSALS = (notation.Reject, notation.Unreadable, notation.TooLarge)
 

@@ -4,7 +4,6 @@ from cores import Core
 from draws import draw_centres, draws_of
 from matrices import CoreKey, drawn_ranks, edge_motion, edge_translation
 from notation import LABORATORY, OF_LABORATORY, a_big, a_list, a_string, an_int, distinct, members, need
-from pebbles import counted_rank
 from upper import UpperBounds
 
 
@@ -57,11 +56,6 @@ class Pieces(UpperBounds):
         lower += [(self.check_one_solution(value, group, piece, at), value) for value, at in kinds["one-solution"]]
         piece.lower = max(rank for rank, _ in lower)
         need(piece.lower <= piece.upper, f"{where}a lower bound is above an upper bound or required")
-        counted = None if core.scales or self.vectors is not None else counted_rank(core.n, core.edges, self.model)
-        if counted is not None:
-            # Not a condition of the page: what elimination found must be what counting alone finds.
-            rank = self.core_rank_to_rank(counted, core, piece.required)
-            need(piece.lower <= rank <= piece.upper, f"{where}the rank by counting is {rank}")
         draws, seed = (), None
         for value, at in kinds["draws"]:
             rank, seed, draws, piece.error = self.check_draws(value, core, at)

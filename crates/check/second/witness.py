@@ -12,28 +12,7 @@ import itertools
 import json
 import sys
 
-
-def is_prime(p):
-    """Strong-pseudoprime test to bases that decide it below 3.18e23."""
-    if p < 2:
-        return False
-    for base in (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37):
-        if p % base == 0:
-            return p == base
-    odd, twos = p - 1, 0
-    while odd % 2 == 0:
-        odd, twos = odd // 2, twos + 1
-    for base in (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37):
-        power = pow(base, odd, p)
-        if power in (1, p - 1):
-            continue
-        for _ in range(twos - 1):
-            power = power * power % p
-            if power == p - 1:
-                break
-        else:
-            return False
-    return True
+from notation import is_prime
 
 
 def determinant(rows, p):
