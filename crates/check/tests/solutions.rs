@@ -412,7 +412,11 @@ fn s9_to_s11_linear() {
         json!([13, 12]),
         json!([16]),
     ] {
-        refused("point", &[("U/points/points/0/steps/0/freed", freed)], wanted);
+        refused(
+            "point",
+            &[("U/points/points/0/steps/0/freed", freed)],
+            wanted,
+        );
     }
     refused(
         "point",
@@ -438,7 +442,9 @@ fn s9_to_s11_linear() {
         refused(
             "point",
             &[("U/points/points/0/steps/0/settled", json!([unknown]))],
-            &format!("U.points.points[0].steps[0] (linear): unknown {unknown} does not follow from the left kernel"),
+            &format!(
+                "U.points.points[0].steps[0] (linear): unknown {unknown} does not follow from the left kernel"
+            ),
         );
     }
     refused(
