@@ -254,6 +254,53 @@ fn tracks_without_pairs() {
     assert!(run.err.contains("name the file"), "{}", run.err);
 }
 
+/// A view that was not placed is outside, and nobody is told that there is nothing to mend.
+#[test]
+fn views_without_a_pose_are_outside() {
+    for name in ["alicevision.sfm", "sfm_data.json"] {
+        let path = format!("tests/foreign/{name}");
+        let run = verify(&["overview", "--json", &path]);
+        let line = valid(&schema(), &run).remove(0);
+        let outside = line["in_no_part"].as_array().unwrap();
+        assert_eq!((run.code, outside.len()), (1, 1), "{line}");
+        let run = verify(&["overview", &path]);
+        assert!(
+            run.out.contains(outside[0].as_str().unwrap()),
+            "{}",
+            run.out
+        );
+        assert!(
+            run.out.contains("match the pairs of that list"),
+            "{}",
+            run.out
+        );
+    }
+}
+
+/// Of a part the first and the last name are shown, and whether the names between are others.
+#[test]
+fn names_of_a_part_have_gaps() {
+    let square = |names: [&str; 4]| {
+        let pairs = (0..4).flat_map(|a| (0..a).map(move |b| (a, b)));
+        pairs
+            .map(|(a, b)| format!("{} {}\n", names[a], names[b]))
+            .collect::<String>()
+    };
+    for (one, other, has_gaps) in [
+        (["1", "2", "3", "4"], ["5", "6", "7", "8"], false),
+        (["1", "2", "7", "8"], ["3", "4", "9", "10"], true),
+    ] {
+        let list = square(one) + &square(other);
+        let run = verify_with(list.as_bytes(), &["overview", "-"]);
+        assert_eq!(
+            run.out.contains("(4 images, with gaps)"),
+            has_gaps,
+            "{}",
+            run.out
+        );
+    }
+}
+
 /// Everything in a folder, by name, with the time of the last change.
 fn contents(folder: &Path) -> BTreeMap<PathBuf, (std::time::SystemTime, Vec<u8>)> {
     let mut found = BTreeMap::new();

@@ -651,6 +651,24 @@ fn a_folder_of_models_or_of_a_database() {
         let run = verify(&["--tracks", place]);
         assert!(run.err.contains("name one of these"), "{}", run.err);
     }
+    // A model beside the database that has all images is named, wherever COLMAP put it.
+    let made = Made::new(&[(1, SIMPLE_RADIAL, true)], &[1; 6], 40);
+    made.all(&[1, 2, 3, 4, 5, 6], 40);
+    fs::copy(made.path(), project.path().join("database.db")).unwrap();
+    for (name, images) in [("0", 2), ("1", 6)] {
+        let model = project.path().join("sparse").join(name);
+        fs::create_dir_all(&model).unwrap();
+        text_model(&model, images, 5);
+    }
+    let run = verify(&["overview", project.path().to_str().unwrap()]);
+    let whole = project.path().join("sparse/1").display().to_string();
+    let take = format!("  by hand     take the model {whole}: it has all images");
+    let out = joined(&run.out);
+    assert!(
+        out.contains(&take) && out.contains("sparse/0 has 2 images"),
+        "{out}"
+    );
+    assert!(!out.contains("  do  "), "{out}");
     // Of several databases nobody knows which is meant.
     fs::copy(made.path(), project.path().join("other.db")).unwrap();
     let run = verify(&["overview", project.path().to_str().unwrap()]);
@@ -664,6 +682,54 @@ fn a_folder_of_models_or_of_a_database() {
     let run = verify(&["overview", "docs"]);
     assert_eq!(run.code, 2);
     assert!(run.err.contains("is a directory"), "{}", run.err);
+}
+
+/// Cameras of which no focal length is known: COLMAP stores a homography for a pair, which a turn explains or not.
+#[test]
+fn turns_on_one_spot_are_no_base_line() {
+    let (sine, cosine) = 0.2f64.sin_cos();
+    let turn = [[cosine, 0.0, sine], [0.0, 1.0, 0.0], [-sine, 0.0, cosine]];
+    // A step of a tenth of the distance of a wall, or none; the focal length is not the 900 pixels of the database.
+    for (step, focal) in [
+        (0.0, 900.0),
+        (0.0, 700.0),
+        (0.0, 1400.0),
+        (0.1, 900.0),
+        (0.1, 1400.0),
+    ] {
+        let made = Made::new(&[(1, SIMPLE_RADIAL, false)], &[1; 4], 40);
+        made.all(&[1, 2, 3, 4], 40);
+        let mut plane = turn;
+        plane[1][2] += step;
+        // K M K^-1, where K has the focal length and the middle 500, 400.
+        let centre = [500.0, 400.0, 0.0];
+        let wide = |i: usize, j: usize| {
+            let of = |k: usize| if k < 2 { focal } else { 1.0 };
+            of(i) * plane[i][j] / of(j)
+        };
+        let rows = [0, 1, 2].map(|i| {
+            let row = |j: usize| wide(i, j) + centre[i] * wide(2, j);
+            let last = row(2) - row(0) * centre[0] - row(1) * centre[1];
+            [row(0), row(1), last]
+        });
+        let update = "update two_view_geometries set config = 6, H = ?";
+        made.connection
+            .execute(update, [bytes(rows.as_flattened())])
+            .unwrap();
+        let (run, line) = made.overview();
+        assert_eq!(
+            line.get("without_base_line").is_some(),
+            step == 0.0,
+            "{line}"
+        );
+        assert_eq!(run.code, i32::from(step == 0.0), "{}", run.out);
+        assert_eq!(
+            run.out.contains("do not turn on the spot"),
+            step == 0.0,
+            "{}",
+            run.out
+        );
+    }
 }
 
 /// COLMAP's model 17 sees the whole sphere: its intrinsics are known, and directions behind the camera are

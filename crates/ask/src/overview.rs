@@ -152,7 +152,16 @@ fn source(
                 [only] => {
                     let path = Path::new(only);
                     let read = asked.inputs(path).next();
-                    source(session, asked, path, read.context("no graph")?)
+                    let found = source(session, asked, path, read.context("no graph")?)?;
+                    let others = inside.iter().filter(|path| *path != only);
+                    let (models, _) = models(session, asked, others);
+                    let beside = models
+                        .iter()
+                        .map(|(path, model)| (path.clone(), images(model)));
+                    Ok(Source {
+                        beside: beside.collect(),
+                        ..found
+                    })
                 }
                 [first, ..] => {
                     bail!("{file}: {problem}; type `verify overview {}`", shell(first))
@@ -186,23 +195,36 @@ fn tracks_in(session: &Session, asked: &Asked, path: &Path) -> Result<NamedGraph
     Ok(tracks.with_context(|| format!("{}: no graph", path.display()))??)
 }
 
-/// The model with most images of those in a folder; COLMAP numbers models as it makes them, not by size.
-fn largest(session: &Session, asked: &Asked, inside: &[String]) -> Result<Source> {
+/// The models of a folder that can be read, those with most images first, and why another one cannot be read.
+fn models<'a>(
+    session: &Session,
+    asked: &Asked,
+    inside: impl Iterator<Item = &'a String>,
+) -> (Vec<(String, NamedGraph)>, Option<anyhow::Error>) {
     let (mut models, mut why) = (Vec::new(), None);
     for path in inside {
         match tracks_in(session, asked, Path::new(path)) {
-            Ok(model) => models.push((path, model)),
+            Ok(model) => models.push((path.clone(), model)),
             Err(error) => why = why.or(Some(error)),
         }
     }
     // Of equals the first comes first.
     models.sort_by_key(|(_, model)| std::cmp::Reverse(model.cameras));
+    (models, why)
+}
+
+fn images(model: &NamedGraph) -> usize {
+    model.cameras.unwrap_or_default() as usize
+}
+
+/// The model with most images of those in a folder; COLMAP numbers models as it makes them, not by size.
+fn largest(session: &Session, asked: &Asked, inside: &[String]) -> Result<Source> {
+    let (models, why) = models(session, asked, inside.iter());
     let mut models = models.into_iter();
     let Some((path, model)) = models.next() else {
         return Err(why.context("no model")?);
     };
-    let images = |model: &NamedGraph| model.cameras.unwrap_or_default() as usize;
-    let beside = models.map(|(path, model)| (path.clone(), images(&model)));
+    let beside = models.map(|(path, model)| (path, images(&model)));
     Ok(Source {
         beside: beside.collect(),
         ..Source::of_tracks(path.into(), model)

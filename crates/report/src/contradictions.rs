@@ -37,6 +37,14 @@ impl Contradicted {
         Some(format!("{} (verify contradictions)", all.join("; ")))
     }
 
+    /// That nothing can contradict anything, and why.
+    pub(crate) fn unseen(&self) -> Option<String> {
+        let why = self.motions.unchecked.keys().map(|why| why.name());
+        let why = Vec::from_iter(why).join(", ");
+        let is_unseen = self.motions.pairs.is_empty() && !why.is_empty();
+        is_unseen.then(|| format!("no pair is checked ({why}): a look-alike cannot show"))
+    }
+
     /// Whether nothing contradicts anything.
     pub fn is_good(&self) -> bool {
         self.found.at_least() == 0

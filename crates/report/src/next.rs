@@ -23,7 +23,8 @@ const LIST: &str = "pairs.txt";
 /// What to do about a file of which this was found.
 pub fn next(file: &File, found: &Overview) -> Next {
     match found.facts() {
-        _ if !found.beside.is_empty() && found.is_one_part() => of_models(file, found),
+        Some(_) if let Some(model) = whole_model(found) => model,
+        None if !found.beside.is_empty() && found.is_one_part() => of_models(file, found),
         Some(facts) if facts.pairs_used == 0 => without_pairs(file, found, facts),
         Some(facts) if facts.images_without_keypoints > 0 && found.no_model().is_some() => Next {
             commands: {
@@ -170,14 +171,16 @@ fn to_match(file: &File, found: &Overview) -> Option<Next> {
     let of = found.wanted.of;
     let parts = match most == of {
         true => format!("{} in one part if they overlap", all_of(most, of)),
-        false => format!("parts of {} and more if they overlap", all_of(most, of)),
+        false => format!("{} in one part or more if they overlap", all_of(most, of)),
     };
     let now = most_of(found).filter(|(_, images, _)| *images < of);
-    let now = now.map(|(mapper, images, _)| format!("; {mapper} mapping places {images} now"));
+    let now = now.map(|(mapper, images, _)| format!("; now {images} ({mapper} mapping)"));
+    let elsewhere = "match the pairs of that list in the program that wrote the file, with more features; or photograph \
+                     what lies between them";
     Some(Next {
         commands,
         expect: parts + &now.unwrap_or_default(),
-        by_hand: None,
+        by_hand: found.pairs.is_none().then(|| elsewhere.to_owned()),
     })
 }
 
@@ -220,7 +223,7 @@ fn map(file: &File, found: &Overview) -> Next {
     let after = match () {
         () if found.doubts().iter().any(|doubt| doubt.refutes) => "the warning holds for it",
         () if !found.determined() => "what is outside stays outside",
-        () => "look at it: no forecast sees look-alikes",
+        () => "does a wall stand twice? Match neighbours only",
     };
     let why = format!("{name} mapping makes most of these matches");
     let images = all_of(images, found.wanted.of);
@@ -235,8 +238,20 @@ fn map(file: &File, found: &Overview) -> Next {
 fn by_hand(found: &Overview) -> Option<String> {
     let [one, other] = &found.joints.photograph.as_ref()?.between;
     Some(format!(
-        "photograph what lies between {one} and {other}: nothing is left to match"
+        "all was matched: photograph what lies between {one} and {other}, or extract more features"
     ))
+}
+
+/// A model beside the database that has all images already.
+fn whole_model(found: &Overview) -> Option<Next> {
+    let (path, images) = found.beside.first()?;
+    let is_whole = *images == found.wanted.of && found.determined();
+    is_whole.then(|| Next {
+        commands: Vec::new(),
+        by_hand: Some(format!("take the model {}: it has all images", shell(path))),
+        expect: "nothing to match or map; programs that read sparse/0 alone need this path"
+            .to_owned(),
+    })
 }
 
 /// The models of a folder.
@@ -244,7 +259,7 @@ fn of_models(file: &File, found: &Overview) -> Next {
     let why = "says whether what two models share fixes one against the other";
     Next {
         commands: vec![file.verify("merge", &[&found.beside[0].0], why)],
-        expect: "the command that merges the two, or matches that are missing between them"
+        expect: "how the two are merged, or why not; COLMAP merges only models of one database"
             .to_owned(),
         by_hand: None,
     }

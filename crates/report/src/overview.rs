@@ -338,7 +338,11 @@ impl Overview<'_> {
         let refuting = off.chain(base_lines).chain(others).map(doubt(true));
         let lesser = bottlenecks::warnings(&self.narrow).into_iter();
         let lesser = lesser.chain(bottlenecks::few(&self.narrow));
-        let lesser = lesser.chain(self.unchecked()).map(doubt(false));
+        let unseen = self.contradictions.as_ref().and_then(Contradicted::unseen);
+        let lesser = lesser
+            .chain(self.unchecked())
+            .chain(unseen)
+            .map(doubt(false));
         refuting.chain(lesser).collect()
     }
 

@@ -17,6 +17,18 @@ pub(crate) struct PartLine {
     pub(crate) images: usize,
     pub(crate) first: String,
     pub(crate) last: String,
+    /// Whether images of other parts are between the two.
+    #[serde(skip)]
+    has_gaps: bool,
+}
+
+impl PartLine {
+    /// "a ... c (3 images)".
+    pub(crate) fn words(&self) -> String {
+        let gaps = if self.has_gaps { ", with gaps" } else { "" };
+        let images = counted(self.images, "image");
+        format!("{} ... {} ({images}{gaps})", self.first, self.last)
+    }
 }
 
 /// The names of all images of some cameras: images of a frame at one place are one camera.
@@ -42,12 +54,21 @@ pub(crate) fn images(input: &NamedGraph, cameras: &[u32]) -> usize {
 
 /// The parts, whose images are increasing.
 pub(crate) fn parts(input: &NamedGraph, parts: &[Vec<u32>]) -> Vec<PartLine> {
-    let part = |images: &Vec<u32>| {
+    // Numbers as such.
+    let key = |name: &String| (name.parse::<u64>().ok(), name.clone());
+    let sorted = |images: &[u32]| {
         let mut names = names(input, images);
-        // Numbers as such.
-        names.sort_by_cached_key(|name| (name.parse::<u64>().ok(), name.clone()));
+        names.sort_by_cached_key(key);
+        names
+    };
+    let all = sorted(&parts.concat());
+    let part = |images: &Vec<u32>| {
+        let mut names = sorted(images);
+        let place = |name: &String| all.partition_point(|other| key(other) < key(name));
+        let between = place(names.last()?) - place(names.first()?);
         Some(PartLine {
             images: names.len(),
+            has_gaps: between >= names.len(),
             first: names.first()?.clone(),
             last: names.pop()?,
         })
@@ -67,9 +88,7 @@ pub(crate) fn write<W: Write>(
     wrapped: impl Fn(&mut W, &str, &str) -> io::Result<()>,
 ) -> io::Result<()> {
     for (k, part) in (1..).zip(parts.iter().take(PARTS)) {
-        let images = counted(part.images, "image");
-        let words = format!("{} ... {} ({images})", part.first, part.last);
-        writeln!(out, "  {:<12}{words}", format!("part {k}"))?;
+        writeln!(out, "  {:<12}{}", format!("part {k}"), part.words())?;
     }
     if parts.len() > PARTS {
         writeln!(

@@ -98,11 +98,15 @@ fn title(found: &Overview) -> io::Result<Vec<u8>> {
             .beside
             .iter()
             .map(|(path, images)| format!("{} has {}", printable(path), counted(*images, "image")));
-        let words = format!(
-            "the largest model, with {own}; {}",
-            Vec::from_iter(others).join(", ")
-        );
-        wrapped(&mut out, "of several", &words)?;
+        let others = Vec::from_iter(others).join(", ");
+        let (title, words) = match found.facts() {
+            Some(_) => ("models", others),
+            None => (
+                "of several",
+                format!("the largest model, with {own}; {others}"),
+            ),
+        };
+        wrapped(&mut out, title, &words)?;
     }
     Ok(out)
 }
@@ -173,11 +177,7 @@ fn outside(out: &mut Vec<u8>, found: &Overview) -> io::Result<()> {
     let (sees, none) = (found.sees(), found.named(&found.in_no_part()));
     let shown_parts = if none.is_empty() { PARTS } else { PARTS - 1 };
     for (k, part) in (1..).zip(&named).skip(1).take(shown_parts - 1) {
-        let images = counted(part.images, "image");
-        words.push(format!(
-            "part {k}: {} ... {} ({images})",
-            part.first, part.last
-        ));
+        words.push(format!("part {k}: {}", part.words()));
     }
     if named.len() > shown_parts {
         words.push(counted(named.len() - shown_parts, "more part"));

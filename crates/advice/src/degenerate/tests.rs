@@ -22,6 +22,7 @@ fn estimate(images: (u32, u32), config: i64, angle: f64) -> Estimate {
         angle: Some(angle),
         forward: None,
         rotation: None,
+        of_plane: None,
     }
 }
 

@@ -160,6 +160,7 @@ fn what_disqualifies_a_beginning() {
     let estimate = |config, angle, forward| Estimate {
         images: [0, 0],
         rotation: None,
+        of_plane: None,
         config,
         angle: Some(angle),
         forward: Some(forward),
@@ -201,6 +202,7 @@ fn nothing_is_made_in_one_place() {
         angle: Some(0.5),
         forward: Some(0.1),
         rotation: None,
+        of_plane: None,
     };
     let mut told = Told(BTreeMap::from([((2, 3), close)]));
     let found = sample.simulated(&mut told);

@@ -12,7 +12,7 @@ use viewcert::graph::{Lists, UnionFind};
 use viewcert::wording::counted;
 
 /// Most pairs without a base line that are looked at; later ones count as having one.
-const MOST: usize = 2000;
+const MOST: usize = 20_000;
 
 /// The groups of each part, whose images increase; images of a frame stay together. O(pairs + images of
 /// parts) where parts share few images, and what `geometry` takes for pairs that a homography explains and

@@ -22,6 +22,9 @@ pub struct Estimate {
     pub angle: Option<f64>,
     /// The part of the motion along the second camera's axis, from 0 to 1.
     pub forward: Option<f64>,
+    /// The same angle as a homography leaves it, where a turn of the camera does not explain that: at most so many
+    /// degrees of rays to its plane.
+    pub of_plane: Option<f64>,
     /// The rotation that takes directions of the first image to those of the second, by rows.
     pub rotation: Option<[[f64; 3]; 3]>,
 }
@@ -33,7 +36,10 @@ impl Estimate {
     pub fn has_no_base_line(&self) -> bool {
         match self.config {
             1 | 5 | 7 | 8 => true,
-            4 | 6 => self.angle.is_some_and(|angle| angle < LEAST_ANGLE),
+            4 | 6 => self
+                .angle
+                .or(self.of_plane)
+                .is_some_and(|angle| angle < LEAST_ANGLE),
             _ => false,
         }
     }
@@ -55,6 +61,7 @@ pub fn estimate(views: &TwoViews) -> Estimate {
         config: views.config,
         angle: None,
         forward: None,
+        of_plane: views.homography.as_ref().and_then(beyond_turns),
         rotation: None,
     };
     let stored = views.pose.map(|(q, t)| Pose {
@@ -72,6 +79,23 @@ pub fn estimate(views: &TwoViews) -> Estimate {
         rotation: Some(pose.rotation),
         ..unknown
     }
+}
+
+/// By how many degrees a homography H = R + t n^T is no turn: of all focal lengths from a quarter of what is
+/// stored to twice that, the same in both cameras, the one that brings H closest to a rotation.
+fn beyond_turns(h: &Matrix) -> Option<f64> {
+    let size = dot(h[0], cross(h[1], h[2])).cbrt();
+    let off = |scale: f64| {
+        let by = [scale, scale, 1.0];
+        let turn = [0, 1, 2].map(|i| [0, 1, 2].map(|j| h[i][j] * by[j] / by[i] / size));
+        let unit = |i: usize, j: usize| if i == j { 1.0 } else { 0.0 };
+        let all = (0..3).flat_map(|i| (0..3).map(move |j| (i, j)));
+        let squares = all.map(|(i, j)| (dot(turn[i], turn[j]) - unit(i, j)).powi(2));
+        (squares.sum::<f64>() / 2.0).sqrt().to_degrees()
+    };
+    let scales = (-32..=16).map(|k| 2f64.powf(f64::from(k) / 16.0));
+    let least = scales.map(off).fold(f64::INFINITY, f64::min);
+    least.is_finite().then_some(least)
 }
 
 /// The pose of an essential matrix that has most points before both cameras.

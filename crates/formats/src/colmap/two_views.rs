@@ -14,6 +14,8 @@ pub struct TwoViews {
     pub inliers: u32,
     /// The essential matrix E, in rows: y^T E x = 0 for x in the first image and y in the second.
     pub essential: Option<[[f64; 3]; 3]>,
+    /// The homography between the planes at distance 1 of the two cameras, if it is stored: y = H x.
+    pub homography: Option<[[f64; 3]; 3]>,
     /// E as it is stored, whatever else is.
     pub stored_essential: Option<[[f64; 3]; 3]>,
     /// The stored quaternion and translation, each if it is whole, finite and, the first, not zero.

@@ -12,6 +12,7 @@ use rusqlite::types::ValueRef;
 use rusqlite::{Connection, OptionalExtension, Row, params};
 
 use super::TwoViews;
+use super::estimate::Matrix;
 use super::focal::SPHERICAL;
 use super::keypoints::{COLUMNS, places};
 use super::motion::motion;
@@ -30,8 +31,8 @@ pub struct Views<'a> {
     priors: Vec<bool>,
     /// Whether the camera of every image has a plane and no distortion, by its node.
     plain: Vec<bool>,
-    /// Which columns of poses the table has: E, F, and a quaternion with a translation.
-    has: [bool; 3],
+    /// Which columns of poses the table has: E, F, H, and a quaternion with a translation.
+    has: [bool; 4],
     has_config: bool,
     keypoints: Option<Keypoints>,
 }
@@ -99,7 +100,7 @@ impl<'a> Views<'a> {
             cameras,
             priors,
             plain,
-            has: [is_there("E"), is_there("F"), posed],
+            has: [is_there("E"), is_there("F"), is_there("H"), posed],
             has_config: is_there("config"),
             keypoints: keypoints.then(Keypoints::default),
             connection,
@@ -146,32 +147,33 @@ impl<'a> Views<'a> {
         else {
             return Ok(None);
         };
-        let [e, f, pose] = self.has;
+        let [e, f, h, pose] = self.has;
         let column = |there: bool, name: &'static str| if there { name } else { "null" };
         let query = format!(
-            "select rows, {}, data, {}, {}, {}, {} from {} where pair_id = ?",
+            "select rows, {}, data, {}, {}, {}, {}, {} from {} where pair_id = ?",
             if self.has_config { "config" } else { "0" },
             column(e, "E"),
             column(f, "F"),
             column(pose, "qvec"),
             column(pose, "tvec"),
+            column(h, "H"),
             self.table
         );
         let read = |row: &Row| {
             let inliers: Option<u32> = row.get(0)?;
             let config: Option<i64> = row.get(1)?;
             let list = row.get_ref(2)?.as_blob().unwrap_or(&[]).to_vec();
-            let numbers = [3, 4, 5, 6].map(|k| row.get_ref(k).map(doubles));
-            let [e, f, q, t] = numbers;
+            let numbers = [3, 4, 5, 6, 7].map(|k| row.get_ref(k).map(doubles));
+            let [e, f, q, t, h] = numbers;
             Ok((
                 inliers.unwrap_or(0),
                 config.unwrap_or(0),
                 list,
-                [e?, f?, q?, t?],
+                [e?, f?, q?, t?, h?],
             ))
         };
         let mut statement = self.connection.prepare_cached(&query)?;
-        let Some((inliers, config, list, [e, f, q, t])) =
+        let Some((inliers, config, list, [e, f, q, t, h])) =
             statement.query_row(params![pair], read).optional()?
         else {
             return Ok(None);
@@ -194,15 +196,24 @@ impl<'a> Views<'a> {
         {
             found.pose = Some((q, t));
         }
-        let [e, f] = [e, f].map(|m| matrix(&m));
+        let [e, f, h] = [e, f, h].map(|m| matrix(&m));
         found.stored_essential = e;
         // A pair with a fundamental matrix was verified by it; the essential one was then worse.
-        let of_fundamental = || {
-            let [Some(Camera::Plane(one)), Some(Camera::Plane(two))] = cameras else {
-                return None;
-            };
-            Some(essential(&f?, &one, &two))
+        let planes = match cameras {
+            [Some(Camera::Plane(one)), Some(Camera::Plane(two))] => Some((one, two)),
+            _ => None,
         };
+        let of_fundamental = || {
+            let (one, two) = planes?;
+            Some(product(
+                &transposed(&calibration(&two)),
+                &f?,
+                &calibration(&one),
+            ))
+        };
+        found.homography = planes
+            .zip(h)
+            .map(|((one, two), h)| product(&inverse(&two), &h, &calibration(&one)));
         found.essential = match config {
             3 => of_fundamental().or(e),
             _ => e.or_else(of_fundamental),
@@ -326,17 +337,32 @@ fn matrix(numbers: &[f64]) -> Option<[[f64; 3]; 3]> {
     (rest.is_empty() && given).then_some(rows)
 }
 
-/// E = K2^T F K1.
-fn essential(f: &[[f64; 3]; 3], one: &Plane, two: &Plane) -> [[f64; 3]; 3] {
-    let calibration = |camera: &Plane| {
-        let ([x, y], [u, v]) = (camera.focal, camera.centre);
-        [[x, 0.0, u], [0.0, y, v], [0.0, 0.0, 1.0]]
-    };
-    let (k1, k2) = (calibration(one), calibration(two));
+/// K, which takes the plane at distance 1 to pixels.
+fn calibration(camera: &Plane) -> Matrix {
+    let ([x, y], [u, v]) = (camera.focal, camera.centre);
+    [[x, 0.0, u], [0.0, y, v], [0.0, 0.0, 1.0]]
+}
+
+/// Its inverse.
+fn inverse(camera: &Plane) -> Matrix {
+    let ([x, y], [u, v]) = (camera.focal, camera.centre);
+    [
+        [1.0 / x, 0.0, -u / x],
+        [0.0, 1.0 / y, -v / y],
+        [0.0, 0.0, 1.0],
+    ]
+}
+
+fn transposed(m: &Matrix) -> Matrix {
+    [0, 1, 2].map(|i| [0, 1, 2].map(|j| m[j][i]))
+}
+
+/// The product of three.
+fn product(a: &Matrix, b: &Matrix, c: &Matrix) -> Matrix {
     [0, 1, 2].map(|i| {
         [0, 1, 2].map(|j| {
-            let terms = (0..3).flat_map(|a| (0..3).map(move |b| (a, b)));
-            terms.map(|(a, b)| k2[a][i] * f[a][b] * k1[b][j]).sum()
+            let terms = (0..3).flat_map(|x| (0..3).map(move |y| (x, y)));
+            terms.map(|(x, y)| a[i][x] * b[x][y] * c[y][j]).sum()
         })
     })
 }

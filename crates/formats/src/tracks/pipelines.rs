@@ -1,18 +1,17 @@
 //! Tracks of other pipelines: OpenMVG's `sfm_data.json`, AliceVision's `.sfm`, OpenSfM's `tracks.csv`.
 //!
-//! In: the text. Out: of the first two the views that have a pose or see a point, and the points of the
-//! structure; of OpenSfM the tracks before a reconstruction, and the images in them.
+//! In: the text. Out: of the first two all views, whether they were placed or not, and the points of the structure;
+//! of OpenSfM the tracks before a reconstruction, and the images in them.
 
 use serde::Deserialize;
 use serde::de::{DeserializeOwned, IgnoredAny};
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 use std::io::Read;
 
 use super::graph::{TrackGraph, TrackOptions, sorted};
 use super::words::Words;
 use crate::NamedGraph;
 use crate::error::{Fault, Place, Problem};
-use viewcert::wording::counted;
 
 /// An entry of a map of cereal.
 #[derive(Deserialize)]
@@ -24,8 +23,6 @@ struct Keyed<T> {
 #[derive(Deserialize)]
 struct OpenMvg {
     views: Vec<Keyed<OpenMvgPointer>>,
-    #[serde(default)]
-    extrinsics: Vec<Keyed<IgnoredAny>>,
     #[serde(default)]
     structure: Vec<Keyed<OpenMvgPoint>>,
 }
@@ -45,7 +42,6 @@ struct OpenMvgView {
     #[serde(default)]
     local_path: String,
     filename: String,
-    id_pose: u64,
 }
 
 #[derive(Deserialize)]
@@ -56,14 +52,13 @@ struct OpenMvgPoint {
 /// OpenMVG's `sfm_data.json`.
 pub(super) fn openmvg(input: impl Read, options: TrackOptions) -> Result<NamedGraph, Fault> {
     let found: OpenMvg = json(input)?;
-    let posed: HashSet<u64> = found.extrinsics.iter().map(|pose| pose.key).collect();
     let views = found.views.into_iter().map(|view| {
         let data = view.value.ptr_wrapper.data;
         let name = match data.local_path.trim_end_matches(['/', '\\']) {
             "" => data.filename,
             folder => format!("{folder}/{}", data.filename),
         };
-        (view.key, name, posed.contains(&data.id_pose))
+        (view.key, name)
     });
     let points = found.structure.into_iter().map(|point| {
         let seen = point.value.observations.into_iter();
@@ -76,8 +71,6 @@ pub(super) fn openmvg(input: impl Read, options: TrackOptions) -> Result<NamedGr
 struct AliceVision {
     views: Vec<AliceVisionView>,
     #[serde(default)]
-    poses: Vec<AliceVisionPose>,
-    #[serde(default)]
     structure: Vec<AliceVisionPoint>,
 }
 
@@ -85,14 +78,7 @@ struct AliceVision {
 #[serde(rename_all = "camelCase")]
 struct AliceVisionView {
     view_id: String,
-    pose_id: String,
     path: String,
-}
-
-#[derive(Deserialize)]
-#[serde(rename_all = "camelCase")]
-struct AliceVisionPose {
-    pose_id: String,
 }
 
 #[derive(Deserialize)]
@@ -109,14 +95,13 @@ struct AliceVisionObservation {
 /// AliceVision's `.sfm`, in which all numbers are strings.
 pub(super) fn alicevision(input: impl Read, options: TrackOptions) -> Result<NamedGraph, Fault> {
     let found: AliceVision = json(input)?;
-    let posed: HashSet<&str> = found.poses.iter().map(|pose| &*pose.pose_id).collect();
     let folders = found.views.iter().map(|view| folder(&view.path));
     let shared = folders
         .reduce(|a, b| if a == b { a } else { "" })
         .unwrap_or_default();
     let views = found.views.iter().map(|view| {
         let name = view.path[shared.len()..].to_owned();
-        (view.view_id.clone(), name, posed.contains(&*view.pose_id))
+        (view.view_id.clone(), name)
     });
     let views = views.collect();
     let points = found.structure.into_iter().map(|point| {
@@ -141,22 +126,19 @@ fn json<T: DeserializeOwned>(mut input: impl Read) -> Result<T, Fault> {
     })
 }
 
-/// The graph of views (number, name, whether it has a pose) and of the views of every point.
+/// The graph of views (number, name) and of the views of every point. A view that sees no point is a camera all the
+/// same: somebody took the photograph, and asks where it is.
 fn graph<Id: Eq + std::hash::Hash + std::fmt::Display>(
-    views: Vec<(Id, String, bool)>,
+    views: Vec<(Id, String)>,
     points: Vec<Vec<Id>>,
     options: TrackOptions,
 ) -> Result<NamedGraph, Fault> {
     if points.is_empty() {
         return Err(Problem::no_points("", "", views.len()).into());
     }
-    let seen: HashSet<&Id> = points.iter().flatten().collect();
-    let (cameras, others): (Vec<_>, Vec<_>) = views
-        .iter()
-        .partition(|(id, _, posed)| *posed || seen.contains(id));
-    let names = cameras.iter().map(|(_, name, _)| name.as_str().into());
+    let names = views.iter().map(|(_, name)| name.as_str().into());
     let (names, nodes) = sorted(names.collect())?;
-    let places = cameras.iter().map(|(id, ..)| id).zip(nodes);
+    let places = views.iter().map(|(id, _)| id).zip(nodes);
     let places: HashMap<&Id, u32> = places.collect();
     let mut graph = TrackGraph::new(names, options)?;
     for point in &points {
@@ -169,13 +151,7 @@ fn graph<Id: Eq + std::hash::Hash + std::fmt::Display>(
         let views: Vec<u32> = point.iter().map(node).collect::<Result<_, _>>()?;
         graph.push(&views)?;
     }
-    let mut graph = graph.finish()?;
-    if !others.is_empty() {
-        let views = counted(others.len(), "view");
-        let note = format!("not counted: {views} without pose and points");
-        graph.notes.push(note);
-    }
-    Ok(graph)
+    graph.finish()
 }
 
 /// OpenSfM's `tracks.csv` (versions 1 and 2): behind a line with the version `image`, `track`, `feature` and more,
