@@ -110,7 +110,7 @@ pub(super) fn lists(session: &Session, arguments: &ListArguments) -> Result<u8> 
     let done = asked.of(session, |report| {
         outputs::answer(
             arguments.json,
-            report.lists.determined,
+            report.is_determined(),
             |out| report.write_json(out),
             |out| report.write(out),
         )
@@ -127,7 +127,7 @@ pub(super) struct MergeArguments {
     /// The folder of the other.
     #[arg(value_name = "MODEL")]
     other: PathBuf,
-    /// The database of both: its tracks may fix what the models alone leave free, and say what to match.
+    /// The database of both: its tracks may fix what the models alone leave free.
     database: Option<PathBuf>,
     #[command(flatten)]
     input: InputArguments,
@@ -146,7 +146,7 @@ pub(super) fn merge(session: &Session, arguments: &MergeArguments) -> Result<u8>
     let asked = merge::Asked {
         models: [&arguments.one, &arguments.other],
         database: arguments.database.as_deref(),
-        options: arguments.input.reading().tracks,
+        reading: arguments.input.reading(),
     };
     let done = asked.of(session, |report| {
         outputs::answer(

@@ -53,10 +53,9 @@ fn taken_apart(session: &Session, arguments: &SplitArguments) -> Result<u8> {
     let least = arguments.min_views as usize;
     let model = match read_model(session, path) {
         Ok(model) if !model.points.is_empty() => model,
-        Err(error) if !path.is_dir() => return Err(error),
         // A model without points, and a folder that is none, are refused as they are everywhere.
         other => match read_graphs(path, &ReadOptions::default()).next() {
-            Some(Err(error)) if error.problem.kind != Kind::Model => {
+            Some(Err(error)) if path.is_dir() && error.problem.kind != Kind::Model => {
                 return Err(error.into());
             }
             _ => other?,
@@ -84,10 +83,9 @@ fn taken_apart(session: &Session, arguments: &SplitArguments) -> Result<u8> {
     let mut notes = Vec::new();
     let short = model.points.len() - posed.points.len();
     if short > 0 {
-        let advice = if posed.points.is_empty() {
-            "; say --min-views 2 to count them"
-        } else {
-            ""
+        let advice = match posed.points.is_empty() {
+            true => "; say --min-views 2 to count them",
+            false => "",
         };
         notes.push(format!(
             "not counted: {} in fewer than {least} images (--min-views){advice}",

@@ -93,12 +93,12 @@ pub(crate) fn merge(
     database: Option<PathBuf>,
     reading: Reading,
 ) -> PyResult<Said> {
-    let options = reading.options()?.tracks;
+    let reading = reading.options()?;
     asked(py, move |session| {
         let wish = viewcert_ask::merge::Asked {
             models: [&one, &other],
             database: database.as_deref(),
-            options,
+            reading,
         };
         wish.of(session, |report| {
             said(|out| report.write_json(out), |out| report.write(out))

@@ -8,8 +8,8 @@
 
 use serde::Serialize;
 use viewcert_formats::quaternion::rotation;
+use viewcert_formats::vectors::{Vector, cross, dot, minus};
 
-pub(crate) type Vector = [f64; 3];
 /// By rows.
 type Matrix = [Vector; 3];
 
@@ -21,16 +21,15 @@ pub const TURNED: f64 = 10.0;
 /// Two centres are one place if they are closer than this, by the size of their model.
 const ONE_PLACE: f64 = 1e-3;
 
-/// Of larger sets so many, evenly, make candidates and judge them.
+/// Of larger sets so many, evenly, make candidates and judge them; of points alone every three of so many.
 const MAKE: usize = 40;
 const JUDGE: usize = 400;
-/// Candidates from three points.
-const TRIPLES: usize = 2000;
+const CORNERS: usize = 24;
 
 /// Where an image was taken: the centre, and the rotation from the world to the camera.
 #[derive(Clone, Copy)]
 pub(crate) struct View {
-    pub(crate) centre: Vector,
+    centre: Vector,
     turn: Matrix,
 }
 
@@ -45,14 +44,26 @@ impl View {
     }
 }
 
-/// Things that two models share.
+/// An image or a point that two models share.
+struct Thing<'a> {
+    /// The name of an image.
+    name: &'a str,
+    /// Where each model has it.
+    places: [Vector; 2],
+    /// What turns the first world into the second, by an image.
+    turn: Option<Matrix>,
+}
+
+/// Images or points that two models share, and their spread in both.
+struct Things<'a> {
+    all: Vec<Thing<'a>>,
+    spread: [f64; 2],
+}
+
+/// What two models share.
 pub(crate) struct Common<'a> {
-    /// Images, and where each model has them.
-    pub(crate) images: Vec<(&'a str, [View; 2])>,
-    /// Points, and where each model has them.
-    pub(crate) points: Vec<[Vector; 2]>,
-    /// Whether the images were taken at one place: their centres say nothing then.
-    pub(crate) at_one_place: bool,
+    images: Things<'a>,
+    points: Things<'a>,
 }
 
 /// What two models share, after the best similarity.
@@ -100,7 +111,7 @@ pub struct Similarity {
 }
 
 impl Similarity {
-    fn new(scale: f64, rotation: Matrix, from: Vector, to: Vector) -> Self {
+    fn new(scale: f64, rotation: Matrix, [from, to]: [Vector; 2]) -> Self {
         let moved = times(&rotation, from);
         Self {
             scale,
@@ -109,162 +120,11 @@ impl Similarity {
         }
     }
 
-    fn of(&self, x: Vector) -> Vector {
-        let turned = times(&self.rotation, x);
-        [0, 1, 2].map(|k| self.scale * turned[k] + self.translation[k])
-    }
-}
-
-impl Common<'_> {
-    /// What the best similarity leaves; nothing if there is nothing that could contradict.
-    pub(crate) fn misfit(&self) -> Option<Misfit> {
-        let (images, points) = (self.images.len(), self.points.len());
-        // Three points fit by any triangle of the same shape; an image and a point have a direction.
-        let free = if images == 0 { 3 } else { 0 };
-        if images + points < 2 || points < free + 1 && images == 0 {
-            return None;
-        }
-        let units = Units::new(self);
-        let judges = Common {
-            images: some(&self.images, JUDGE),
-            points: some(&self.points, JUDGE),
-            at_one_place: self.at_one_place,
-        };
-        let candidates = self.candidates();
-        let costs = candidates.iter().map(|one| judges.cost(&units, one));
-        let best = costs.zip(&candidates).min_by(|a, b| a.0.total_cmp(&b.0))?.1;
-        let similarity = best.clone();
-        let off = |(name, views): &(&str, [View; 2])| {
-            let [off, turned] = self.error(&units, &similarity, views);
-            Disagreement {
-                image: (*name).to_owned(),
-                off,
-                turned,
-            }
-        };
-        let all: Vec<Disagreement> = self.images.iter().map(off).collect();
-        let images_off = median(all.iter().map(|one| one.off));
-        let mut disagree: Vec<_> = all.into_iter().filter(|one| one.size() > 1.0).collect();
-        disagree.sort_by(|a, b| b.size().total_cmp(&a.size()));
-        let point_errors = self
-            .points
-            .iter()
-            .map(|both| units.of_points(&similarity, both));
-        let point_errors: Vec<f64> = point_errors.collect();
-        let points_disagree = point_errors.iter().filter(|&&off| off > OFF).count();
-        let allowed = (images / 10).max(usize::from(images >= 5));
-        let agreeing = (points - points_disagree).saturating_sub(free);
-        Some(Misfit {
-            images,
-            images_off: images_off.filter(|_| !self.at_one_place),
-            points,
-            points_off: median(point_errors.into_iter()),
-            points_disagree,
-            agree: disagree.len() <= allowed && 2 * agreeing >= points - free,
-            disagree,
-            similarity,
-        })
-    }
-
-    /// Similarities, each of a few of the things.
-    fn candidates(&self) -> Vec<Similarity> {
-        if self.images.is_empty() {
-            return triples(&self.points);
-        }
-        let images = some(&self.images, MAKE);
-        let centres = images
-            .iter()
-            .map(|(_, views)| views.map(|view| view.centre));
-        let things: Vec<[Vector; 2]> = centres.chain(some(&self.points, MAKE)).collect();
-        let mut found = Vec::new();
-        for (_, [one, other]) in &images {
-            let rotation = between(one, other);
-            let similar = |scale| Similarity::new(scale, rotation, one.centre, other.centre);
-            let scales = things.iter().filter_map(|[x, y]| {
-                let ratio = distance(*y, other.centre) / distance(*x, one.centre);
-                (ratio.is_normal() && !self.is_blurred([*x, one.centre])).then_some(ratio)
-            });
-            let before = found.len();
-            found.extend(scales.map(similar));
-            if found.len() == before {
-                found.push(similar(1.0));
-            }
-        }
-        found
-    }
-
-    /// Whether a distance is between images that were taken at one place.
-    fn is_blurred(&self, ends: [Vector; 2]) -> bool {
-        let is_centre = |end: &Vector| self.images.iter().any(|(_, [one, _])| one.centre == *end);
-        self.at_one_place && ends.iter().all(is_centre)
-    }
-
-    /// How far an image is off, and by how many degrees it is turned.
-    fn error(&self, units: &Units, similarity: &Similarity, [one, other]: &[View; 2]) -> [f64; 2] {
-        let off = match self.at_one_place {
-            true => 0.0,
-            false => units.of_images(similarity, &[one.centre, other.centre]),
-        };
-        let turned = product(&transposed(&similarity.rotation), &between(one, other));
-        let cosine = (turned[0][0] + turned[1][1] + turned[2][2] - 1.0) / 2.0;
-        [off, cosine.clamp(-1.0, 1.0).acos().to_degrees()]
-    }
-
-    /// The mean error of images and that of points, as shares of what is allowed, cut off at 1.
-    fn cost(&self, units: &Units, similarity: &Similarity) -> f64 {
-        let mean = |errors: &mut dyn Iterator<Item = f64>, count: usize| {
-            let sum: f64 = errors.map(|error| error.min(1.0).powi(2)).sum();
-            sum / count.max(1) as f64
-        };
-        let of_images = &mut self.images.iter().map(|(_, views)| {
-            let [off, turned] = self.error(units, similarity, views);
-            (off / OFF).max(turned / TURNED)
-        });
-        let of_points = &mut self.points.iter();
-        let of_points = &mut of_points.map(|both| units.of_points(similarity, both) / OFF);
-        mean(of_images, self.images.len()) + mean(of_points, self.points.len())
-    }
-}
-
-impl Disagreement {
-    /// The larger error, as a share of what is allowed.
-    fn size(&self) -> f64 {
-        (self.off / OFF).max(self.turned / TURNED)
-    }
-}
-
-/// The spread of images and points in both models.
-struct Units {
-    images: [f64; 2],
-    points: [f64; 2],
-}
-
-impl Units {
-    fn new(common: &Common) -> Self {
-        let centres = |side: usize| {
-            common
-                .images
-                .iter()
-                .map(move |(_, views)| views[side].centre)
-        };
-        let points = |side: usize| common.points.iter().map(move |both| both[side]);
-        Self {
-            images: [0, 1].map(|side| spread(&centres(side).collect::<Vec<_>>())),
-            points: [0, 1].map(|side| spread(&points(side).collect::<Vec<_>>())),
-        }
-    }
-
-    fn of_images(&self, similarity: &Similarity, both: &[Vector; 2]) -> f64 {
-        Self::off(self.images, similarity, both)
-    }
-
-    fn of_points(&self, similarity: &Similarity, both: &[Vector; 2]) -> f64 {
-        Self::off(self.points, similarity, both)
-    }
-
     /// How far something is off, by the smaller one of both spreads, unless that is nothing.
-    fn off([one, other]: [f64; 2], similarity: &Similarity, &[x, y]: &[Vector; 2]) -> f64 {
-        let (one, off) = (similarity.scale * one, distance(similarity.of(x), y));
+    fn off(&self, [one, other]: [f64; 2], &[x, y]: &[Vector; 2]) -> f64 {
+        let turned = times(&self.rotation, x);
+        let moved = [0, 1, 2].map(|k| self.scale * turned[k] + self.translation[k]);
+        let (one, off) = (self.scale * one, distance(moved, y));
         let (least, most) = (one.min(other), one.max(other));
         match least > most * ONE_PLACE {
             true => off / least,
@@ -274,80 +134,186 @@ impl Units {
     }
 }
 
+impl<'a> Things<'a> {
+    fn new(all: Vec<Thing<'a>>) -> Self {
+        let spread = [0, 1].map(|side| {
+            let places = all.iter().map(|thing| thing.places[side]);
+            spread(&places.collect::<Vec<_>>())
+        });
+        Self { all, spread }
+    }
+
+    /// How far a thing is off, and by how many degrees it is turned.
+    fn error(&self, by: &Similarity, thing: &Thing) -> [f64; 2] {
+        let turned = thing.turn.map_or(0.0, |turn| {
+            let turned = product(&transposed(&by.rotation), &turn);
+            let cosine = (turned[0][0] + turned[1][1] + turned[2][2] - 1.0) / 2.0;
+            cosine.clamp(-1.0, 1.0).acos().to_degrees()
+        });
+        [by.off(self.spread, &thing.places), turned]
+    }
+
+    /// How far the one in the middle is off, if places say something.
+    fn middle(&self, by: &Similarity) -> Option<f64> {
+        let middle = median(self.all.iter().map(|thing| self.error(by, thing)[0]));
+        middle.filter(|_| self.spread[0].is_finite())
+    }
+
+    /// The things that disagree, the worst first.
+    fn disagreeing(&self, by: &Similarity) -> Vec<Disagreement> {
+        let errors = self.all.iter().map(|thing| (thing, self.error(by, thing)));
+        let bad = errors.filter(|(_, error)| share(*error) > 1.0);
+        let mut bad: Vec<(&Thing, [f64; 2])> = bad.collect();
+        bad.sort_by(|(_, a), (_, b)| share(*b).total_cmp(&share(*a)));
+        let bad = bad.into_iter().map(|(thing, [off, turned])| Disagreement {
+            image: thing.name.to_owned(),
+            off,
+            turned,
+        });
+        bad.collect()
+    }
+
+    /// The mean error, as a share of what is allowed, cut off at 1.
+    fn cost(&self, by: &Similarity) -> f64 {
+        let errors = some(&self.all, JUDGE).map(|thing| share(self.error(by, thing)));
+        let count = self.all.len().clamp(1, JUDGE) as f64;
+        errors.map(|error| error.min(1.0).powi(2)).sum::<f64>() / count
+    }
+}
+
+impl<'a> Common<'a> {
+    /// Images with their poses, and points. Where images were taken at one place, their centres say nothing.
+    pub(crate) fn new(
+        images: impl Iterator<Item = (&'a str, [View; 2])>,
+        points: &[[Vector; 2]],
+        at_one_place: bool,
+    ) -> Self {
+        let image = |(name, [one, other]): (&'a str, [View; 2])| Thing {
+            name,
+            places: [one.centre, other.centre],
+            turn: Some(product(&transposed(&other.turn), &one.turn)),
+        };
+        let point = |&places: &[Vector; 2]| Thing {
+            name: "",
+            places,
+            turn: None,
+        };
+        let mut images = Things::new(images.map(image).collect());
+        if at_one_place {
+            images.spread = [f64::INFINITY; 2];
+        }
+        Self {
+            images,
+            points: Things::new(points.iter().map(point).collect()),
+        }
+    }
+
+    /// What the best similarity leaves; nothing if there is nothing that could contradict.
+    pub(crate) fn misfit(&self) -> Option<Misfit> {
+        let (images, points) = (self.images.all.len(), self.points.all.len());
+        // Three points fit by any triangle of the same shape; an image and a point have a direction.
+        let (free, least) = if images == 0 { (3, 4) } else { (0, 2) };
+        if images + points < least {
+            return None;
+        }
+        let cost = |by: &Similarity| self.images.cost(by) + self.points.cost(by);
+        let candidates = self.candidates().into_iter().map(|one| (cost(&one), one));
+        let (_, similarity) = candidates.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let disagree = self.images.disagreeing(&similarity);
+        let points_disagree = self.points.disagreeing(&similarity).len();
+        let allowed = (images / 10).max(usize::from(images >= 5));
+        let agreeing = (points - points_disagree).saturating_sub(free);
+        Some(Misfit {
+            images,
+            images_off: self.images.middle(&similarity),
+            points,
+            points_off: self.points.middle(&similarity),
+            points_disagree,
+            agree: disagree.len() <= allowed && 2 * agreeing >= points - free,
+            disagree,
+            similarity,
+        })
+    }
+
+    /// Similarities, each of a few of the things.
+    fn candidates(&self) -> Vec<Similarity> {
+        let images = || some(&self.images.all, MAKE);
+        if self.images.all.is_empty() {
+            return triples(&some(&self.points.all, CORNERS).collect::<Vec<_>>());
+        }
+        let mut found = Vec::new();
+        for Thing { places, turn, .. } in images() {
+            let turn = turn.expect("an image");
+            let scale = |thing: &Thing| {
+                let [x, y] = [0, 1].map(|side| distance(thing.places[side], places[side]));
+                y / x
+            };
+            let scales = images().chain(some(&self.points.all, MAKE)).map(scale);
+            // Images at one place have no distance.
+            let scales = scales.filter(|scale| scale.is_normal()).chain([1.0]);
+            found.extend(scales.map(|scale| Similarity::new(scale, turn, *places)));
+        }
+        found
+    }
+}
+
+/// The larger error, as a share of what is allowed.
+fn share([off, turned]: [f64; 2]) -> f64 {
+    (off / OFF).max(turned / TURNED)
+}
+
 /// For every image of a model the first one that was taken at the same place. The size of a model is
 /// the spread of its cameras, or how far they are from its points, whichever is more.
 pub(crate) fn first_at_place(views: &[View], points: &[Vector]) -> Vec<usize> {
     let centres: Vec<Vector> = views.iter().map(|view| view.centre).collect();
-    let distances = some(&centres, MAKE).into_iter().filter_map(|centre| {
-        median(
-            some(points, JUDGE)
-                .into_iter()
-                .map(|point| distance(point, centre)),
-        )
-    });
-    let size = spread(&centres).max(median(distances).unwrap_or(0.0));
-    let first = |&centre: &Vector| {
-        let mut all = centres.iter();
-        all.position(|&other| distance(centre, other) <= ONE_PLACE * size)
-    };
+    let far = |centre: &Vector| median(some(points, JUDGE).map(|&point| distance(point, *centre)));
+    let far = some(&centres, MAKE).filter_map(far);
+    let size = spread(&centres).max(median(far).unwrap_or(0.0));
+    let near = |a: Vector, b: Vector| distance(a, b) <= ONE_PLACE * size;
+    let first = |centre: &Vector| centres.iter().position(|&other| near(*centre, other));
     let first = centres.iter().map(first).enumerate();
     first.map(|(k, first)| first.unwrap_or(k)).collect()
 }
 
 /// The median distance between two places, of which some are looked at; the largest where that is none.
 fn spread(places: &[Vector]) -> f64 {
-    let some = some(places, 2 * MAKE);
+    let some: Vec<Vector> = some(places, 2 * MAKE).copied().collect();
     let pairs = some.iter().enumerate();
     let pairs = pairs.flat_map(|(k, &a)| some[k + 1..].iter().map(move |&b| distance(a, b)));
-    let mut distances: Vec<f64> = pairs.collect();
-    distances.sort_by(f64::total_cmp);
-    let middle = distances.get(distances.len() / 2).copied();
-    let middle = middle.filter(|&middle| middle > 0.0);
-    middle.or(distances.last().copied()).unwrap_or(0.0)
+    let middle = median(pairs.clone()).filter(|&middle| middle > 0.0);
+    middle.unwrap_or_else(|| pairs.fold(0.0, f64::max))
 }
 
 /// Similarities of three points each.
-fn triples(points: &[[Vector; 2]]) -> Vec<Similarity> {
-    let count = points.len();
-    let mut state = 1u64;
-    let mut draw = move || {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (state >> 33) as usize % count
+fn triples(points: &[&Thing]) -> Vec<Similarity> {
+    let unit = |a: Vector| {
+        let length = dot(a, a).sqrt();
+        length.is_normal().then(|| a.map(|x| x / length))
     };
     let frame = |[a, b, c]: [Vector; 3]| {
         let along = unit(minus(b, a))?;
         let across = unit(cross(along, minus(c, a)))?;
         Some([along, cross(across, along), across])
     };
-    let similar = |three: [[Vector; 2]; 3]| {
-        let [x, y] = [0, 1].map(|side| three.map(|both| both[side]));
-        let around = |[a, b, c]: [Vector; 3]| distance(a, b) + distance(b, c) + distance(c, a);
-        let middle = |[a, b, c]: [Vector; 3]| [0, 1, 2].map(|k| (a[k] + b[k] + c[k]) / 3.0);
+    let similar = |three: [&Thing; 3]| {
+        let [x, y] = [0, 1].map(|side| three.map(|point| point.places[side]));
         let rotation = product(&transposed(&frame(y)?), &frame(x)?);
-        let scale = around(y) / around(x);
-        scale
-            .is_normal()
-            .then(|| Similarity::new(scale, rotation, middle(x), middle(y)))
+        let scale = distance(y[0], y[1]) / distance(x[0], x[1]);
+        Some(Similarity::new(scale, rotation, three[0].places))
     };
-    let three = std::iter::repeat_with(|| [draw(), draw(), draw()]).take(TRIPLES);
-    three
-        .filter_map(|three| similar(three.map(|k| points[k])))
-        .collect()
-}
-
-/// What turns one world into the other, by an image that is in both.
-fn between(one: &View, other: &View) -> Matrix {
-    product(&transposed(&other.turn), &one.turn)
+    let mut found = Vec::new();
+    for (k, a) in points.iter().enumerate() {
+        for (l, b) in points[..k].iter().enumerate() {
+            found.extend(points[..l].iter().filter_map(|c| similar([a, b, c])));
+        }
+    }
+    found
 }
 
 /// So many of a list, evenly.
-fn some<T: Clone>(all: &[T], most: usize) -> Vec<T> {
+fn some<T>(all: &[T], most: usize) -> impl Iterator<Item = &T> {
     let count = all.len().min(most);
-    (0..count)
-        .map(|k| all[k * all.len() / count].clone())
-        .collect()
+    (0..count).map(move |k| &all[k * all.len() / count])
 }
 
 fn median(numbers: impl Iterator<Item = f64>) -> Option<f64> {
@@ -356,25 +322,8 @@ fn median(numbers: impl Iterator<Item = f64>) -> Option<f64> {
     numbers.get(numbers.len() / 2).copied()
 }
 
-pub(crate) fn dot(a: Vector, b: Vector) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-pub(crate) fn minus(a: Vector, b: Vector) -> Vector {
-    [0, 1, 2].map(|k| a[k] - b[k])
-}
-
 fn distance(a: Vector, b: Vector) -> f64 {
     dot(minus(a, b), minus(a, b)).sqrt()
-}
-
-fn unit(a: Vector) -> Option<Vector> {
-    let length = dot(a, a).sqrt();
-    length.is_normal().then(|| a.map(|x| x / length))
-}
-
-fn cross(a: Vector, b: Vector) -> Vector {
-    [[1, 2], [2, 0], [0, 1]].map(|[i, j]| a[i] * b[j] - a[j] * b[i])
 }
 
 fn times(a: &Matrix, x: Vector) -> Vector {

@@ -6,7 +6,7 @@
 use crate::folder::{ensure_new, resolved};
 use anyhow::{Result, ensure};
 use serde::Serialize;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeSet, HashMap};
 use std::fs;
 use std::path::Path;
 use viewcert::at_cameras::finished::{Held, Hinge, Motion};
@@ -22,8 +22,6 @@ pub struct Split {
     pub parts: Vec<Piece>,
     /// The images of no part.
     pub outside: Vec<String>,
-    /// How many points are in a part without all of their views.
-    pub points_cut: usize,
     /// How many points no two images of one part see: they are in no part.
     pub points_left_out: usize,
 }
@@ -66,19 +64,13 @@ impl Free {
 
 /// A motion in words, by what stays where it is.
 fn meaning(joint: &Hinge, model: &Model, posed: &Posed) -> String {
-    let points: Vec<u64> = joint
-        .points
-        .iter()
-        .map(|&k| posed.ids[k as usize])
-        .collect();
-    let still = match (joint.images.first(), points.first()) {
-        (Some(&v), _) => Some(format!("image {}", model.images[v as usize].name)),
-        (None, Some(id)) => Some(format!("point {id}")),
-        (None, None) => None,
-    };
-    let about = still
-        .as_ref()
-        .map_or_else(String::new, |still| format!(" about {still}"));
+    let points = joint.points.iter().map(|&k| posed.ids[k as usize]);
+    let points: Vec<u64> = points.collect();
+    let image = joint.images.first();
+    let image = image.map(|&v| format!("image {}", model.images[v as usize].name));
+    let still = image.or_else(|| Some(format!("point {}", points.first()?)));
+    let about = still.as_ref().map(|still| format!(" about {still}"));
+    let about = about.unwrap_or_default();
     match (joint.motion, &points[..]) {
         (Motion::Turn, [a, b]) => format!("turns about the line through points {a} and {b}"),
         (Motion::Turn, _) => "turns about a line".to_owned(),
@@ -123,52 +115,42 @@ pub fn split(
     parts: &[Vec<u32>],
 ) -> Result<Split> {
     let first = posed.first_at_place();
-    let names = |images: &mut dyn Iterator<Item = u32>| {
-        let names = images.map(|v| model.images[v as usize].name.to_string());
+    let names = |images: &[u32]| {
+        let names = images
+            .iter()
+            .map(|&v| model.images[v as usize].name.to_string());
         let mut names: Vec<String> = names.collect();
         names.sort();
         names
     };
-    let digits = parts.len().to_string().len().max(3);
     let inside: BTreeSet<u32> = parts.iter().flatten().copied().collect();
-    let mut outside = (0..model.images.len() as u32).filter(|v| !inside.contains(v));
-    let mut found = Split {
-        folder: folder.display().to_string(),
-        parts: Vec::new(),
-        outside: names(&mut outside),
-        points_cut: 0,
-        points_left_out: 0,
-    };
-    let places = model.images.iter().map(|image| image.id).zip(0..);
-    let places: BTreeMap<u32, u32> = places.collect();
-    let views = model.points.iter();
-    let views: BTreeMap<u64, usize> = views.map(|point| (point.id, point.track.len())).collect();
-    let mut is_cut: BTreeMap<u64, bool> = BTreeMap::new();
+    let outside = (0..model.images.len() as u32).filter(|v| !inside.contains(v));
+    let digits = parts.len().to_string().len().max(3);
+    let (mut written, mut points) = (Vec::new(), BTreeSet::new());
     outputs.folder(folder, |new| {
         for (number, images) in (1..).zip(parts) {
-            let place = |id: u32| {
-                let v = places
-                    .get(&id)
-                    .filter(|v| images.binary_search(v).is_ok())?;
-                Some(first[*v as usize] as u32)
-            };
-            let part = model.of_images(|image| place(image.id));
+            let places = images
+                .iter()
+                .map(|&v| (model.images[v as usize].id, first[v as usize] as u32));
+            let places: HashMap<u32, u32> = places.collect();
+            let part = model.of_images(|image| places.get(&image.id).copied());
             let folder = format!("{number:0digits$}");
             fs::create_dir(new.join(&folder))?;
             part.write(&new.join(&folder))?;
-            for point in &part.points {
-                *is_cut.entry(point.id).or_default() |= views[&point.id] > point.track.len();
-            }
-            found.parts.push(Piece {
+            points.extend(part.points.iter().map(|point| point.id));
+            written.push(Piece {
                 folder,
-                images: names(&mut images.iter().copied()),
+                images: names(images),
                 points: part.points.len(),
                 observations: part.points.iter().map(|point| point.track.len()).sum(),
             });
         }
-        found.points_cut = is_cut.values().filter(|&&is_cut| is_cut).count();
-        found.points_left_out = model.points.len() - is_cut.len();
         Ok(())
     })?;
-    Ok(found)
+    Ok(Split {
+        folder: folder.display().to_string(),
+        parts: written,
+        outside: names(&outside.collect::<Vec<u32>>()),
+        points_left_out: model.points.len() - points.len(),
+    })
 }

@@ -72,7 +72,7 @@ impl HowRead {
         match self.of_tracks_alone {
             None => Ok(()),
             Some(option) => bail!(
-                "{}: {option} says how tracks count, and there are none; leave it out",
+                "{}: {option} says how tracks count, and none are counted here; leave it out",
                 path.display()
             ),
         }

@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use viewcert::graph::Graph;
 use viewcert_formats::model::{Lens, Posed};
 use viewcert_formats::quaternion::rotation;
+use viewcert_formats::vectors::{Vector, cross, minus};
 
 /// How far the centre moves that moves most, by the spread.
 pub const SHARE: f64 = 0.01;
@@ -33,7 +34,6 @@ pub struct Softness {
     pub soft_points: usize,
 }
 
-type Vector = [f64; 3];
 /// A symmetric matrix: of each row the column of the first entry, and all from there to the diagonal.
 type Rows = Vec<(usize, Vec<f64>)>;
 /// What moves an observation, by rows.
@@ -418,15 +418,4 @@ fn image(seen: &[Seen], vector: &[f64], place: &[usize]) -> Vec<f64> {
     };
     let all: Vec<Vec<f64>> = seen.par_iter().map(of).collect();
     all.concat()
-}
-
-fn minus(a: Vector, b: Vector) -> Vector {
-    [0, 1, 2].map(|k| a[k] - b[k])
-}
-
-fn cross(a: Vector, b: Vector) -> Vector {
-    [0, 1, 2].map(|k| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        a[i] * b[j] - a[j] * b[i]
-    })
 }

@@ -33,6 +33,7 @@ mod read_as;
 mod recognise;
 pub mod sparse6;
 pub mod tracks;
+pub mod vectors;
 pub mod whole;
 
 pub use edge_list::columns::{Columns, ListOptions, NoColumns};

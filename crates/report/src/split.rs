@@ -104,14 +104,6 @@ impl SplitReport<'_> {
         }
         rest(out, self.free.len(), "--json lists them")?;
         row(out, "softest", self.softest())?;
-        let soft = self.softness.map_or(0, |softness| softness.soft_points);
-        if self.held.loose_points + soft > 0 {
-            let loose = counted(self.held.loose_points, "point");
-            let words = format!(
-                "{loose} with all rays on one line, {soft} as soft as rounding (floating point): they decide nothing"
-            );
-            row(out, "soft", words)?;
-        }
         let models = counted(split.parts.len(), "model");
         row(out, "written", format!("{models} in {}", split.folder))?;
         for part in split.parts.iter().take(SHOWN) {
@@ -121,13 +113,11 @@ impl SplitReport<'_> {
             writeln!(out, "    {}: {points}, {images}: {names}", part.folder)?;
         }
         rest(out, split.parts.len(), "--json lists them")?;
+        if split.points_left_out > 0 {
+            row(out, "in no part", counted(split.points_left_out, "point"))?;
+        }
         if !split.outside.is_empty() {
             row(out, "in no part", some_names(&split.outside))?;
-        }
-        let (cut, left_out) = (split.points_cut, split.points_left_out);
-        if cut + left_out > 0 {
-            let words = format!("{cut} without all views, {left_out} in no part");
-            row(out, "points", words)?;
         }
         time(out, self.time)
     }
@@ -159,7 +149,6 @@ impl SplitReport<'_> {
             "soft_points": self.softness.map(|softness| softness.soft_points),
             "split": self.split,
             "whole": self.is_whole(),
-            "answer": self.answer(),
             "seconds": self.time.as_secs_f64(),
         });
         write_line(out, "split", None, &line)

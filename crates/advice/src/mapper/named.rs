@@ -37,34 +37,6 @@ pub struct Global {
     pub of: usize,
 }
 
-impl Foreseen {
-    /// Images of a part that both mappers put into one model, by their places in it: the largest sets.
-    pub(crate) fn together(&self, part: &[String]) -> Vec<Vec<usize>> {
-        let global = self.global.models.iter().map(|model| &model.images);
-        let incremental = self.incremental.models.iter().map(|model| &model.images);
-        let incremental: Vec<_> = incremental.collect();
-        let mut sets: Vec<Vec<usize>> = Vec::new();
-        for global in global {
-            // What incremental mapping refuses says nothing.
-            let refused = self.incremental.refused.then_some(&global);
-            for own in incremental.iter().chain(refused) {
-                let in_both = |name: &String| global.contains(name) && own.contains(name);
-                let set = (0..part.len()).filter(|&k| in_both(&part[k]));
-                sets.push(set.collect());
-            }
-        }
-        sets.sort_by_key(|set| Reverse(set.len()));
-        let mut kept: Vec<Vec<usize>> = Vec::new();
-        for set in sets {
-            let is_in = |other: &Vec<usize>| set.iter().all(|k| other.contains(k));
-            if set.len() > 1 && !kept.iter().any(is_in) {
-                kept.push(set);
-            }
-        }
-        kept
-    }
-}
-
 /// A model of global mapping.
 #[derive(Clone, Debug, Serialize)]
 pub struct GlobalModel {

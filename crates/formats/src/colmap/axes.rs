@@ -5,6 +5,7 @@
 use super::pairs::Pair;
 use super::{DatabaseFacts, Estimate};
 use crate::error::Problem;
+use crate::vectors::Vector;
 use std::cmp::Reverse;
 use std::collections::VecDeque;
 use viewcert::graph::{Lists, UnionFind};
@@ -14,8 +15,6 @@ const PARALLEL: f64 = 0.5;
 
 /// With one image so many degrees off nothing more is looked at.
 const OFF: f64 = 5.0;
-
-type Vector = [f64; 3];
 
 /// Whether the axes deviate by so little, in the median, from the axis of the first image, along the pairs with
 /// most inliers; not if these leave images apart. O(pairs log pairs), and what `geometry` takes for one pair

@@ -7,6 +7,7 @@
 
 use super::TwoViews;
 use crate::quaternion::rotation;
+use crate::vectors::{Vector, cross, dot};
 
 /// Rays less far apart than so many degrees, in the median, tell next to nothing of a distance.
 pub const LEAST_ANGLE: f64 = 1.0;
@@ -45,7 +46,6 @@ impl Estimate {
     }
 }
 
-pub(super) type Vector = [f64; 3];
 pub(super) type Matrix = [Vector; 3];
 
 /// Rotation and translation that take coordinates of the first camera to those of the second.
@@ -154,18 +154,6 @@ pub(super) fn median_angle(pose: &Pose, matches: &[[Vector; 2]]) -> Option<f64> 
     let middle = angles.len() / 2;
     let (_, median, _) = angles.select_nth_unstable_by(middle, f64::total_cmp);
     Some(*median)
-}
-
-pub(super) fn dot(a: Vector, b: Vector) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-pub(super) fn cross(a: Vector, b: Vector) -> Vector {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
 }
 
 fn apply(m: &Matrix, x: Vector) -> Vector {

@@ -4,10 +4,11 @@
 //! ([`Motion`]), or why there is none ([`Unchecked`]). The rotation is that of E, of whose four
 //! decompositions one has more than half of the inliers in front; floats find it, with a margin.
 
-use super::estimate::{Matrix, Pose, Vector, cross, decompositions, dot, median_angle};
+use super::estimate::{Matrix, Pose, decompositions, median_angle};
 use super::{DEFAULT_MIN_INLIERS, TwoViews};
 use crate::motions::{Motion, Unchecked, integers};
 use crate::quaternion::{quaternion, rotation, scaled};
+use crate::vectors::{Vector, cross, dot};
 
 /// Depths below this share of what their terms may add up to have no sure sign in doubles.
 const SURE: f64 = 1e-12;
