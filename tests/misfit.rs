@@ -451,5 +451,5 @@ fn points_of_other_databases_are_not_compared() {
     let data = data().join("turn4/files");
     let [one, other] = ["merge_a", "merge_other_db"].map(|name| data.join(name));
     let found = verify(&["merge", one.to_str().unwrap(), other.to_str().unwrap()]);
-    assert!(found.out.contains(" images, 0 points\n"), "{}", found.out);
+    assert!(found.out.contains(" places, 0 points\n"), "{}", found.out);
 }

@@ -488,7 +488,7 @@ fn two_models_share_what_fixes_them() {
     let found = run(at, "merge", &["one", "other"]);
     assert_eq!(found.code, 0, "{}{}", found.out, found.err);
     for words in [
-        "1 image, 1 point\n",
+        "1 image at 1 place, 1 point\n",
         "  images      3.jpg\n",
         "yes: rotation",
         "`colmap model_merger`",

@@ -37,7 +37,8 @@ impl MergeReport<'_> {
         }
         let images = counted(merge.shared_images.len(), "image");
         let points = counted(merge.shared_points, "point");
-        row(out, "shared", format!("{images}, {points}"))?;
+        let places = counted(merge.shared_places, "place");
+        row(out, "shared", format!("{images} at {places}, {points}"))?;
         row(out, "images", some_names(&merge.shared_images))?;
         row(out, "fixed", self.answer())?;
         if !merge.is_determined() {
