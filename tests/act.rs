@@ -1,6 +1,7 @@
 //! What to do about a verdict, through the real binary: joints, weak pairs, suggestions, exports.
 
 use crate::common::{Run, cycle, data, samples, verify, verify_with};
+use crate::unique;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::fs;
@@ -99,10 +100,8 @@ fn weak(line: &Value) -> BTreeSet<Vec<String>> {
 /// Two solutions: nine cameras with twelve pairs.
 const TWO: &str = "1 3\n1 4\n2 5\n3 5\n2 6\n4 6\n0 7\n4 7\n5 7\n0 8\n3 8\n6 8\n";
 
-/// Each pair of `TWO` inside a K_4 of its own, and one pair besides: unique. Whichever pair is lost it stays finite
-/// solvable, but without that one there are two solutions.
-#[test]
-fn what_is_kept_is_finite_solvability() {
+/// Each pair of `TWO` inside a K_4 of its own.
+fn by_fours() -> String {
     let mut graph = "# viewcert pairs\n".to_owned();
     for pair in TWO.lines() {
         let (a, b) = pair.split_once(' ').unwrap();
@@ -118,6 +117,14 @@ fn what_is_kept_is_finite_solvability() {
             }
         }
     }
+    graph
+}
+
+/// Each pair of `TWO` inside a K_4 of its own, and one pair besides: unique. Whichever pair is lost it stays finite
+/// solvable, but without that one there are two solutions.
+#[test]
+fn what_is_kept_is_finite_solvability() {
+    let mut graph = by_fours();
     let decided = |graph: &str| {
         verify_with(graph.as_bytes(), &["-", "--json"])
             .json()
@@ -136,6 +143,32 @@ fn what_is_kept_is_finite_solvability() {
     assert!(!said.contains("if not unique"), "{said}");
     let line = report(&graph, &["advise", "--weak", "--model", "calibrated"]);
     assert_eq!(line["weak"]["kept"], "solvable");
+}
+
+/// Two solutions, and an image is weak although no pair is. Where no image is weak there is one (Corollary 19.5).
+#[test]
+fn no_images_loss_breaks_it() {
+    let words =
+        "each component of three images or more is solvable: no image's loss breaks it (proved)";
+    let graph_of = |pairs: unique::Pairs| {
+        let lines = pairs.iter().map(|(a, b)| format!("{a} {b}\n"));
+        "# viewcert pairs\n".to_owned() + &lines.collect::<String>()
+    };
+    for graph in [12, 40, 60].map(|nodes| graph_of(unique::two_cycles(nodes, 1))) {
+        let said = text(&graph, &["advise", "--weak=images"]);
+        assert!(said.contains("verdict     solvable: "), "{said}");
+        assert!(said.contains(words), "{said}");
+    }
+    let two = by_fours();
+    assert_eq!(
+        report(&two, &["advise", "--weak"])["weak"]["items"],
+        json!([])
+    );
+    let said = text(&two, &["advise", "--weak=images"]);
+    assert!(
+        !said.contains(words) && !said.contains("none found"),
+        "{said}"
+    );
 }
 
 /// Three pairs of different images take 21 of 15 degrees of freedom, and leave one solution; two

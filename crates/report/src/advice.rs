@@ -104,7 +104,13 @@ fn weak(out: &mut impl Write, found: &Weak, single_pairs_only: bool) -> io::Resu
     }
     rest(out, found.items.len(), "--json lists them")?;
     if found.kept != "solvable" {
-        let words = "without any other one it stays finite solvable, if not unique";
+        // Corollary 19.5 of the theory; the loss of pairs shows no such thing.
+        let words = match found.of == "images" && found.items.is_empty() {
+            true => {
+                "each component of three images or more is solvable: no image's loss breaks it (proved)"
+            }
+            false => "without any other one it stays finite solvable, if not unique",
+        };
         writeln!(out, "    {words}")?;
     }
     if found.single_pairs > 0 {
