@@ -68,7 +68,7 @@ def atlas(program, laboratory, target, begin):
     for record in beside:
         write(target / f"graphs/{record.slug}.html", graph_page(record, siblings, None, None))
     step("pages of graphs", begin)
-    write(target / "gallery.html", gallery_page(program))
+    write(target / "gallery.html", gallery_page(laboratory))
     step("gallery", begin)
     titled = [record for record in of_catalog if record.title]
     return titled + beside

@@ -1,12 +1,10 @@
 //! Cameras that `--given` brings: what is determined at these (docs/theory.md, section 16).
 
 use anyhow::{Context, Result, anyhow};
-use std::io::Write;
-use viewcert::at_cameras::{Centres, Here, HereError, Motion, at_cameras, open_focal_lengths};
+use viewcert::at_cameras::{Centres, Here, HereError, at_cameras, open_focal_lengths};
 use viewcert::watch::Watch;
 use viewcert_formats::{NamedGraph, centre_error};
 use viewcert_report::assumptions::Asked;
-use viewcert_session::Session;
 
 /// Decides a graph at given cameras.
 ///
@@ -34,21 +32,4 @@ pub(super) fn open(asked: Asked, input: &NamedGraph, centres: &Centres) -> Resul
             )
         }),
     }
-}
-
-/// What moves, to be drawn: nothing where it cannot be listed, which is said.
-///
-/// # Errors
-/// If the work is stopped.
-pub(super) fn motions(here: &Here, centres: &Centres, session: &Session) -> Result<Vec<Motion>> {
-    let found = session.watched(|watch| here.basis_of_motions(centres, watch))?;
-    if found.is_none() && !here.is_determined() {
-        let why = match here.model.in_plane() {
-            true => "affine cameras have their centres at infinity",
-            false => "too many parts move for exact velocities",
-        };
-        // Whoever does not read it has the picture of the graph.
-        let _ = writeln!(std::io::stderr(), "verify: what moves is not drawn: {why}");
-    }
-    Ok(found.unwrap_or_default())
 }

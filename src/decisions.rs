@@ -22,7 +22,6 @@ use viewcert_formats::{Beside, NamedGraph, beside};
 use viewcert_report::assumptions::{BaseLines, Scope, of_intrinsics};
 use viewcert_report::at_cameras::HereReport;
 use viewcert_report::many::Table;
-use viewcert_report::motion;
 use viewcert_report::next::overview_of;
 use viewcert_report::scene::Scene;
 use viewcert_report::{Report, WrittenProof, json};
@@ -200,11 +199,6 @@ impl Work<'_> {
         }
         let advice = session.watched(|_| self.advise(input, verdict));
         let advice = advice.with_context(name)?;
-        let is_drawn = plan.products.page.is_some() || plan.products.picture.is_some();
-        let motions = match &here {
-            Some((here, centres)) if is_drawn => at_cameras::motions(here, centres, session)?,
-            _ => Vec::new(),
-        };
         let report = Report {
             input,
             verdict,
@@ -219,7 +213,6 @@ impl Work<'_> {
                 verdict,
                 here,
                 centres,
-                motions: &motions,
                 open: &open,
             }),
         };
@@ -378,8 +371,7 @@ fn draw(session: &Session, products: &Products, report: &Report) -> Result<()> {
     session.doing(format!("drawing {}", report.input.name));
     let outputs = session.outputs();
     if let Some(path) = &products.picture {
-        let text = report.here.as_ref().and_then(motion::picture);
-        let text = text.unwrap_or_else(|| Scene::new(report.input, report.verdict).svg(true));
+        let text = Scene::new(report.input, report.verdict).svg(true);
         outputs.write(path, |out| out.write_all(text.as_bytes()))?;
     }
     if let Some(path) = &products.page {

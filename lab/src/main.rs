@@ -9,6 +9,7 @@ mod census;
 mod command;
 mod layout;
 mod mixtures;
+mod motion;
 mod oriented;
 mod plot;
 mod report;
@@ -59,6 +60,8 @@ enum Command {
     Solutions(command::solutions::Arguments),
     /// Count in how many scenes of the graphs with several solutions the scene is unique all the same.
     Oriented(command::oriented::Arguments),
+    /// Draw what moves at given cameras at which a graph is not determined.
+    Motion(command::motion::Arguments),
     /// Write, as JSON, another scene with the same images for each graph that has one.
     Scenes(command::scenes::Arguments),
     /// Count the solutions of pieces of graphs that are only just finite solvable.
@@ -85,6 +88,7 @@ fn main() -> ExitCode {
             Command::Random(arguments) => command::random::run(session, arguments),
             Command::Solutions(arguments) => command::solutions::run(session, arguments),
             Command::Oriented(arguments) => command::oriented::run(session, arguments),
+            Command::Motion(arguments) => command::motion::run(session, arguments),
             Command::Scenes(arguments) => command::scenes::run(session, arguments),
             Command::Thin(arguments) => command::thin::run(session, arguments),
             Command::Completions(arguments) => command::man::completions(arguments),

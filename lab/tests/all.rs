@@ -11,6 +11,7 @@ mod conditions;
 mod full_disk;
 mod man;
 mod mixtures;
+mod motion;
 mod outputs;
 mod paper;
 mod paper_components;

@@ -7,7 +7,7 @@ use viewcert::geometry::camera::Camera;
 use viewcert::geometry::draw::{DrawKey, cameras_rational};
 use viewcert::graph::{Graph, graph6};
 use viewcert::linalg::bareiss;
-use viewcert::linalg::integer::Integer;
+use viewcert::linalg::integer::{Division, Integer, One, Zero};
 use viewcert::linalg::matrix::Matrix;
 use viewcert::linalg::prime::PrimeField;
 use viewcert::linalg::rational::{Rational, Rationals};
@@ -350,9 +350,9 @@ fn bareiss_finds_the_same_ranks() {
                 for (r, row) in rows.iter().enumerate() {
                     let lcm = row
                         .iter()
-                        .fold(Integer::one(), |lcm, (_, x)| lcm.lcm(x.denominator()));
+                        .fold(Integer::one(), |lcm, (_, x)| lcm.lcm(x.denom()));
                     for (column, x) in row {
-                        matrix[(r, *column)] = x.numerator().mul(&lcm.div_exact(x.denominator()));
+                        matrix[(r, *column)] = x.numer() * (&lcm / x.denom());
                     }
                 }
                 let expected = unwatched(|task| bareiss::eliminate(matrix, task))

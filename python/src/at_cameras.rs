@@ -11,7 +11,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use viewcert::Model;
 use viewcert::at_cameras::{Centres, Here, HereError, Special, at_cameras, open_focal_lengths};
-use viewcert::linalg::rational::Rational;
+use viewcert::linalg::rational::{Rational, parse};
 use viewcert_advice::Advice;
 use viewcert_formats::{NamedGraph, cameras_beside, centre_error};
 use viewcert_report::Report;
@@ -40,7 +40,7 @@ impl Cameras {
     ) -> PyResult<Self> {
         let wrong = |why: String| InputError::new_err(format!("cameras: {why}"));
         let read = |text: &String| {
-            let number = text.parse::<Rational>();
+            let number = parse(text);
             number.map_err(|_| wrong(format!("{text:?} is no number")))
         };
         let numbers = numbers.iter().map(read).collect::<PyResult<Vec<_>>>()?;
@@ -219,10 +219,6 @@ impl AtCameras {
         let answer = move || -> anyhow::Result<Vec<u8>> {
             let open = open_focal_lengths(&input.graph, &centres).filter(|_| asked.focal);
             let open = open.unwrap_or_default();
-            let motions = match &kind[..] {
-                "html" => here.basis_of_motions(&centres, &stop)?.unwrap_or_default(),
-                _ => Vec::new(),
-            };
             let report = Report {
                 input: &input,
                 verdict: &verdict,
@@ -237,7 +233,6 @@ impl AtCameras {
                     verdict: &verdict,
                     here: &here,
                     centres: &centres,
-                    motions: &motions,
                     open: &open,
                 }),
             };

@@ -93,24 +93,24 @@ def search_page(famous):
     return page("Search", body, scripts=("terms.js", "site.js", "search.js"), current="search.html", about="Search the atlas by invariants")
 
 
-def special(program):
+def special(lab):
     """Configurations where a graph that is determined moves, drawn with how it moves."""
     items = ""
     for name, model, title in CONFIGURATIONS:
         pairs, cameras = ((DEGENERATE / f"{name}-{kind}.txt").read_text() for kind in ("pairs", "cameras"))
         about, *source = (line.lstrip("# ") for line in cameras.splitlines() if line.startswith("#"))
-        words = ["draw", "pairs", "picture.svg", "--model", model, "--given", "cameras"]
-        picture = program.kept((words, pairs, cameras), lambda: program.made(words, {"pairs": pairs, "cameras": cameras}, ["picture.svg"])).decode()
+        words = ["motion", "pairs", "cameras", "picture.svg", "--model", model]
+        picture = lab.kept((words, pairs, cameras), lambda: lab.made(words, {"pairs": pairs, "cameras": cameras}, ["picture.svg"])).decode()
         caption = f"{escape(about)} <small>{escape(' '.join(source))}</small>"
         shown = picture.replace("<svg ", f'<svg class="graph" role="img" aria-label="{escape(title)}" ', 1)
         items += f'<li><figure>{shown}<figcaption><strong>{escape(title)}</strong> {caption}</figcaption></figure></li>'
     return items
 
 
-def gallery_page(program):
+def gallery_page(lab):
     body = f"""<h1>Cameras that stand badly</h1>
 <p>Each of these graphs is determined by cameras in general position, and is not by these. An arrow is how a camera can move while all images on all pairs stay as they are (<a href="docs/models.html#cameras-at-which-a-graph-fails">the files, and the commands</a>).</p>
-<section><ul class="pictures">{special(program)}</ul></section>"""
+<section><ul class="pictures">{special(lab)}</ul></section>"""
     return page("Cameras that stand badly", body, scripts=("terms.js", "site.js"), current="gallery.html", about="Cameras at which a graph is not determined, with the motion that leaves all images as they are")
 
 

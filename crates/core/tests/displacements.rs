@@ -7,6 +7,7 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::collections::BTreeSet;
 use viewcert::graph::Displacements;
+use viewcert::linalg::integer::Integer;
 use viewcert::linalg::rational::Rational;
 use viewcert::{Graph, Model, Options, Value, Verdict, decide};
 
@@ -175,7 +176,7 @@ impl Problem {
 }
 
 fn number(n: i64) -> Rational {
-    n.to_string().parse().unwrap()
+    Integer::from(n).into()
 }
 
 fn centres(nodes: usize) -> Vec<[u64; 3]> {

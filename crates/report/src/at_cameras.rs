@@ -4,7 +4,7 @@ use super::{counted, text};
 use crate::shown::{row, some};
 use serde_json::{Value, json};
 use std::io::{self, Write};
-use viewcert::at_cameras::{Centres, Here, Motion, Special};
+use viewcert::at_cameras::{Centres, Here, Special};
 use viewcert::certificate::hex;
 use viewcert::decide::{Component, Verdict};
 use viewcert::geometry::model::Model;
@@ -27,8 +27,6 @@ pub struct HereReport<'a> {
     pub here: &'a Here,
     /// The centres that it is about.
     pub centres: &'a Centres,
-    /// A basis of what moves, if that is to be drawn.
-    pub motions: &'a [Motion],
     /// Where focal lengths are unknown, the nodes whose one no pair fixes.
     pub open: &'a [u32],
 }
@@ -78,21 +76,6 @@ impl HereReport<'_> {
     /// Whether the cameras have a smaller rank than generic ones.
     pub fn is_degenerate(&self) -> bool {
         self.here.rank.value < self.verdict.rank
-    }
-
-    /// The part here of each edge.
-    pub(super) fn parts_of_edges(&self) -> Vec<Option<usize>> {
-        let parts = self.here.components.value.iter().map(Component::nodes);
-        let parts: Vec<Vec<u32>> = parts.collect();
-        let holds = |part: &Vec<u32>, v: u32| part.binary_search(&v).is_ok();
-        let edges = self.input.graph.edges().iter();
-        edges
-            .map(|&(i, j)| {
-                parts
-                    .iter()
-                    .position(|part| holds(part, i) && holds(part, j))
-            })
-            .collect()
     }
 
     /// Writes lines behind those of the verdict.

@@ -19,7 +19,6 @@ pub mod many;
 mod mappers;
 pub mod merge;
 pub mod models;
-pub mod motion;
 pub mod next;
 pub mod overview;
 pub mod overview_page;

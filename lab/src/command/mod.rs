@@ -6,6 +6,7 @@ pub mod compare;
 pub mod conditions;
 pub mod man;
 pub mod mixtures;
+pub mod motion;
 pub mod oriented;
 pub mod publish;
 pub mod published;

@@ -8,7 +8,7 @@ use super::real::{Polynomial, primitive};
 use viewcert::geometry::camera::Camera;
 use viewcert::linalg::Ring;
 use viewcert::linalg::dixon::reconstruct;
-use viewcert::linalg::integer::Integer;
+use viewcert::linalg::integer::{Euclid, Integer, One, Zero};
 use viewcert::linalg::prime::PrimeField;
 use viewcert::linalg::span::Span;
 
@@ -156,14 +156,14 @@ impl Equations {
             let mut sum = Integer::zero();
             for (&a, entry) in side.direction.iter().zip(side.entries) {
                 if a != 0 {
-                    sum.add_assign(&value(entry).mul(&a.into()));
+                    sum += value(entry) * Integer::from(a);
                 }
             }
-            sum.mul(value(side.scale))
+            sum * value(side.scale)
         };
         self.rows
             .iter()
-            .map(move |[first, second]| side(first).sub(&side(second)))
+            .map(move |[first, second]| side(first) - side(second))
     }
 }
 
@@ -358,7 +358,7 @@ pub(super) fn lift(
         for (values, inverse) in &mut points {
             step(field, &equations, values, inverse, &modulus)?;
         }
-        modulus.mul_assign(&prime);
+        modulus *= &prime;
         digits += 1;
         if digits == next {
             next *= 2;
@@ -382,13 +382,13 @@ fn step(
 ) -> Option<()> {
     let residual = equations.residual(values).map(|value| {
         let (quotient, rest) = value.div_rem_euclid(modulus);
-        let digit = field.from_u64(quotient.rem_u64(field.modulus()));
+        let digit = field.from_integer(&quotient);
         rest.is_zero().then_some(digit)
     });
     let residual = residual.collect::<Option<Vec<u64>>>()?;
     for (value, row) in values.iter_mut().zip(inverse) {
         let digit = field.negate(field.dot(0, row, &residual));
-        value.add_assign(&modulus.mul(&field.to_u64(digit).into()));
+        value += &modulus * field.to_u64(digit);
     }
     Some(())
 }
@@ -402,7 +402,8 @@ fn rational(
 ) -> Option<Lifted> {
     let reduced = |x: Integer| x.div_rem_euclid(modulus).1;
     // An unknown that tells the zeros apart, also modulo the prime; a single zero needs none.
-    let residues = |at: usize| zeros.iter().map(move |zero| zero[at].rem_u64(prime));
+    let field = PrimeField::new(prime).ok()?;
+    let residues = |at: usize| zeros.iter().map(move |zero| field.from_integer(&zero[at]));
     let are_different = |&at: &usize| {
         let mut all: Vec<u64> = residues(at).collect();
         all.sort_unstable();
@@ -422,8 +423,8 @@ fn rational(
             if Some(k) != without {
                 product.insert(0, Integer::zero());
                 for l in 1..product.len() {
-                    let less = root.mul(&product[l]);
-                    product[l - 1] = reduced(product[l - 1].sub(&less));
+                    let less = root * &product[l];
+                    product[l - 1] = reduced(&product[l - 1] - less);
                 }
             }
         }
@@ -442,7 +443,7 @@ fn rational(
             for l in 0..roots.len() {
                 let mut sum = Integer::zero();
                 for (zero, weight) in zeros.iter().zip(&weights) {
-                    sum.add_assign(&value(zero).mul(&weight[l]));
+                    sum += value(zero) * &weight[l];
                 }
                 coefficients.push(reduced(sum));
             }

@@ -168,13 +168,13 @@ impl Scene {
         let between = &self.roots[root].between;
         let oriented = signs.of_nodes(between)??;
         let length = self.eliminant.len();
-        let middle = from.add(&to);
-        let denominator = denominator.mul(&2i64.into());
+        let middle = from + to;
+        let denominator = denominator * 2;
         let cameras = self.cameras.iter().zip(oriented).map(|(camera, sign)| {
             camera.each_ref().map(|row| {
                 row.each_ref().map(|f| {
                     let value = value_at(f, &middle, &denominator, length);
-                    if sign { value } else { value.neg() }
+                    if sign { value } else { -value }
                 })
             })
         });
@@ -321,8 +321,8 @@ impl<'a> Signs<'a> {
 
     /// A plane for which all centres are on the same side, or five that prevent it.
     fn with_plane(&self, oriented: &[[Polynomial; 4]], between: &Interval) -> Option<Standing> {
-        let middle = between.from.add(&between.to);
-        let denominator = between.denominator.mul(&2i64.into());
+        let middle = &between.from + &between.to;
+        let denominator = &between.denominator * 2;
         let all = oriented.iter().flatten();
         let length = all.map(Vec::len).max()?;
         let values = oriented.iter().map(|centre| {

@@ -8,7 +8,7 @@
 use super::{Oriented, Scene, Standing};
 use crate::svg::{COLOURS, Svg};
 use viewcert::geometry::camera::Camera;
-use viewcert::linalg::integer::Integer;
+use viewcert::linalg::integer::{Integer, Signed, decimal};
 use viewcert_formats::NamedGraph;
 
 type Vector = [f64; 3];
@@ -324,9 +324,9 @@ mod tests {
 
     #[test]
     fn long_numbers() {
-        let integer = |text: &str| Integer::from_decimal(text).unwrap();
+        let integer = |text: &str| decimal(text).unwrap();
         let long = integer("-123456789012345678901234567890");
-        let row = [long.clone(), long.neg(), integer("0"), integer("1")];
+        let row = [long.clone(), -long, integer("0"), integer("1")];
         let [a, b, c, d] = rounded(&[row.clone(), row.clone(), row])[0];
         assert!((a + 0.123_456_789_012_345_68).abs() < 1e-15 && a == -b);
         assert!(c == 0.0 && (0.0..1e-28).contains(&d));

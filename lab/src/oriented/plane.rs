@@ -4,7 +4,7 @@
 //! a positive combination of which is zero. Numbers are rounded before either is looked for; whether
 //! what is found is right is for others to see.
 
-use viewcert::linalg::integer::Integer;
+use viewcert::linalg::integer::{Euclid, Integer, One, Signed, Zero, decimal};
 
 /// One of the two, by Gordan's theorem.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -20,19 +20,12 @@ const BITS: u64 = 27;
 fn rounded(vector: &[Integer; 4]) -> [i128; 4] {
     let bits = vector.iter().map(Integer::bits).max().unwrap_or(0);
     let drop = bits.saturating_sub(BITS);
-    let mut power = Integer::one();
-    let two = Integer::from(2i64);
-    for _ in 0..drop {
-        power.mul_assign(&two);
-    }
+    let power = Integer::one() << drop;
     vector.each_ref().map(|x| {
         let (quotient, _) = x.div_rem_euclid(&power);
-        // Below 2^28 in absolute value, so the least residue tells which it is.
-        let residue = quotient.rem_u64(1 << 62);
-        match i64::try_from(residue) {
-            Ok(small) if small < 1 << 61 => small.into(),
-            _ => i128::from(residue) - (1 << 62),
-        }
+        quotient
+            .to_i128()
+            .unwrap_or_else(|| unreachable!("of so few bits"))
     })
 }
 
@@ -177,8 +170,8 @@ mod tests {
     /// Large numbers are rounded, negative ones too.
     #[test]
     fn leading_bits() {
-        let large = Integer::from_decimal("-1000000000000000000000000").unwrap();
-        let vector = [large.clone(), large.neg(), Integer::zero(), Integer::one()];
+        let large = decimal("-1000000000000000000000000").unwrap();
+        let vector = [large.clone(), -large, Integer::zero(), Integer::one()];
         let [a, b, c, d] = rounded(&vector);
         assert!(a < 0 && b > 0 && (a + b).abs() <= 1, "{a} {b}");
         assert_eq!((c, d), (0, 0));

@@ -3,7 +3,7 @@
 use super::Interval;
 use std::cmp::Ordering;
 use viewcert::linalg::Ring;
-use viewcert::linalg::integer::Integer;
+use viewcert::linalg::integer::{Euclid, Integer, One, Signed, Zero, content};
 
 /// A polynomial, coefficients from the constant term up; the last one is not zero.
 pub(super) type Polynomial = Vec<Integer>;
@@ -12,7 +12,7 @@ pub(super) type Polynomial = Vec<Integer>;
 pub(super) struct Polynomials;
 
 fn trimmed(mut f: Polynomial) -> Polynomial {
-    while f.last().is_some_and(Integer::is_zero) {
+    while f.last().is_some_and(Zero::is_zero) {
         f.pop();
     }
     f
@@ -37,7 +37,7 @@ impl Ring for Polynomials {
         let (long, short) = if f.len() < g.len() { (g, f) } else { (f, g) };
         let mut sum = long.clone();
         for (a, b) in sum.iter_mut().zip(short) {
-            a.add_assign(b);
+            *a += b;
         }
         trimmed(sum)
     }
@@ -53,14 +53,14 @@ impl Ring for Polynomials {
         let mut product = vec![Integer::zero(); f.len() + g.len() - 1];
         for (k, a) in f.iter().enumerate() {
             for (l, b) in g.iter().enumerate() {
-                product[k + l].add_assign(&a.mul(b));
+                product[k + l] += a * b;
             }
         }
         product
     }
 
     fn neg(&self, f: &Polynomial) -> Polynomial {
-        f.iter().map(Integer::neg).collect()
+        f.iter().map(|a| -a).collect()
     }
 
     fn is_zero(&self, f: &Polynomial) -> bool {
@@ -76,14 +76,14 @@ pub(super) fn remainder(f: &[Integer], divisor: &[Integer]) -> Polynomial {
     while rest.len() > degree {
         let top = rest.len() - 1;
         let lead = &rest[top];
-        let factor = if divisor[degree].sign() == Ordering::Less {
-            lead.neg()
+        let factor = if divisor[degree].is_negative() {
+            -lead
         } else {
             lead.clone()
         };
-        rest.iter_mut().for_each(|a| a.mul_assign(&size));
+        rest.iter_mut().for_each(|a| *a *= &size);
         for (k, b) in divisor.iter().enumerate() {
-            rest[top - degree + k].sub_assign(&factor.mul(b));
+            rest[top - degree + k] -= &factor * b;
         }
         rest = trimmed(rest);
     }
@@ -92,11 +92,11 @@ pub(super) fn remainder(f: &[Integer], divisor: &[Integer]) -> Polynomial {
 
 /// Divided by the greatest common divisor of its coefficients.
 pub(super) fn primitive(f: Polynomial) -> Polynomial {
-    let content = Integer::content(&f);
+    let content = content(&f);
     if content.is_zero() {
         return f;
     }
-    f.iter().map(|a| a.div_exact(&content)).collect()
+    f.iter().map(|a| a / &content).collect()
 }
 
 impl Interval {
@@ -106,35 +106,34 @@ impl Interval {
         let [mut least, mut most] = [Integer::zero(), Integer::zero()];
         let mut scale = Integer::one();
         for a in f.iter().rev() {
-            let ends = [&least, &most].map(|x| [x.mul(&self.from), x.mul(&self.to)]);
+            let ends = [&least, &most].map(|x| [x * &self.from, x * &self.to]);
             let mut ends = ends.concat();
             ends.sort_unstable();
-            let add = a.mul(&scale);
-            (least, most) = (ends[0].add(&add), ends[3].add(&add));
-            scale.mul_assign(&self.denominator);
+            let add = a * &scale;
+            (least, most) = (&ends[0] + &add, &ends[3] + &add);
+            scale *= &self.denominator;
         }
-        match (least.sign(), most.sign()) {
-            (Ordering::Greater, _) => Some(Ordering::Greater),
-            (_, Ordering::Less) => Some(Ordering::Less),
-            _ => None,
+        match () {
+            () if least.is_positive() => Some(Ordering::Greater),
+            () if most.is_negative() => Some(Ordering::Less),
+            () => None,
         }
     }
 
     /// The part with the root of `f`, half of it or less.
     pub(super) fn halved(&self, f: &[Integer]) -> Self {
-        let [two, four] = [2i64, 4].map(Integer::from);
-        let middle = self.from.add(&self.to);
-        let denominator = self.denominator.mul(&two);
-        let [from, to] = [&self.from, &self.to].map(|end| end.mul(&two));
+        let middle = &self.from + &self.to;
+        let denominator = &self.denominator * 2;
+        let [from, to] = [&self.from, &self.to].map(|end| end * 2);
         let at_middle = sign_at(f, &middle, &denominator);
         if at_middle == Ordering::Equal {
             // The root itself: a quarter on both sides.
-            let quarter = self.to.sub(&self.from);
-            let middle = middle.mul(&two);
+            let quarter = &self.to - &self.from;
+            let middle = middle * 2;
             return Self {
-                from: middle.sub(&quarter),
-                to: middle.add(&quarter),
-                denominator: self.denominator.mul(&four),
+                from: &middle - &quarter,
+                to: middle + quarter,
+                denominator: &self.denominator * 4,
             };
         }
         let (from, to) = if at_middle == sign_at(f, &from, &denominator) {
@@ -152,7 +151,7 @@ impl Interval {
 
 /// The sign of a polynomial at a fraction with positive denominator.
 pub(super) fn sign_at(f: &[Integer], numerator: &Integer, denominator: &Integer) -> Ordering {
-    value_at(f, numerator, denominator, f.len()).sign()
+    value_at(f, numerator, denominator, f.len()).cmp(&Integer::ZERO)
 }
 
 /// The value of a polynomial at a fraction, times the denominator to the power `length - 1`; `length`
@@ -166,11 +165,11 @@ pub(super) fn value_at(
     let mut scale = Integer::one();
     let mut value = Integer::zero();
     for k in (0..length).rev() {
-        value.mul_assign(numerator);
+        value *= numerator;
         if let Some(a) = f.get(k) {
-            value.add_assign(&a.mul(&scale));
+            value += a * &scale;
         }
-        scale.mul_assign(denominator);
+        scale *= denominator;
     }
     value
 }
@@ -178,7 +177,7 @@ pub(super) fn value_at(
 /// Sturm's sequence of a polynomial without repeated factors.
 fn sequence(f: &[Integer]) -> Vec<Polynomial> {
     let terms = (0i64..).zip(f).skip(1);
-    let derivative = terms.map(|(k, a)| a.mul(&k.into())).collect();
+    let derivative = terms.map(|(k, a)| a * k).collect();
     let mut sequence = vec![f.to_vec(), primitive(derivative)];
     while let [.., before, last] = &sequence[..] {
         let next = Polynomials.neg(&remainder(before, last));
@@ -206,11 +205,11 @@ pub(super) fn real_roots(f: &[Integer]) -> Vec<Interval> {
     let Some((lead, others)) = f.split_last() else {
         return Vec::new();
     };
-    let largest = others.iter().map(Integer::abs).max();
+    let largest = others.iter().map(Signed::abs).max();
     let quotient = largest.map(|size| size.div_rem_euclid(&lead.abs()).0);
-    let bound = quotient.unwrap_or_else(Integer::zero).add(&2i64.into());
+    let bound = quotient.unwrap_or_else(Integer::zero) + 2;
     let mut open = vec![Interval {
-        from: bound.neg(),
+        from: -&bound,
         to: bound,
         denominator: Integer::one(),
     }];
@@ -227,11 +226,11 @@ pub(super) fn real_roots(f: &[Integer]) -> Vec<Interval> {
             _ => {
                 // Of as many places as there are roots and one more, one is no root.
                 let parts = f.len() as i64 + 1;
-                let denominator = denominator.mul(&parts.into());
-                let part = to.sub(from);
-                let [from, to] = [from, to].map(|end| end.mul(&parts.into()));
+                let denominator = denominator * parts;
+                let part = to - from;
+                let [from, to] = [from, to].map(|end| end * parts);
                 let places = (0..parts - 1).map(|k| (parts / 2 + k) % (parts - 1) + 1);
-                let mut places = places.map(|k| from.add(&part.mul(&k.into())));
+                let mut places = places.map(|k| &from + &part * k);
                 let is_root = |x: &Integer| sign_at(f, x, &denominator) == Ordering::Equal;
                 let Some(cut) = places.find(|x| !is_root(x)) else {
                     continue;
@@ -283,8 +282,8 @@ mod tests {
             }
             let ordered = |pair: &[Interval]| {
                 let [to, from] = [
-                    pair[0].to.mul(&pair[1].denominator),
-                    pair[1].from.mul(&pair[0].denominator),
+                    &pair[0].to * &pair[1].denominator,
+                    &pair[1].from * &pair[0].denominator,
                 ];
                 to <= from
             };

@@ -47,8 +47,8 @@ fn three_solutions() {
             panic!("a quadratic polynomial")
         };
         let four = Integer::from(4i64);
-        let discriminant = b.mul(b).sub(&four.mul(&a.mul(c)));
-        assert_eq!(discriminant.sign() == Ordering::Greater, scene.real() == 3);
+        let discriminant = b * b - four * a * c;
+        assert_eq!(discriminant.is_positive(), scene.real() == 3);
     }
 }
 
@@ -95,14 +95,14 @@ fn cameras_near_a_root() {
             )
         });
         for (k, l) in (0..12).flat_map(|k| (0..k).map(move |l| (k, l))) {
-            assert_eq!(a[k].mul(&b[l]), a[l].mul(&b[k]));
+            assert_eq!(&a[k] * &b[l], &a[l] * &b[k]);
         }
         // Signs fit: factors are positive.
         let sum = a
             .iter()
             .zip(&b)
-            .fold(Integer::zero(), |sum, (x, y)| sum.add(&x.mul(y)));
-        assert_eq!(sum.sign(), Ordering::Greater);
+            .fold(Integer::zero(), |sum, (x, y)| sum + x * y);
+        assert!(sum.is_positive());
     }
 }
 

@@ -9,11 +9,10 @@ use crate::geometry::camera::{Camera, centre};
 use crate::geometry::model::Model;
 use crate::graph::Graph;
 use crate::linalg::Ring;
-use crate::linalg::integer::{Integer, Integers};
+use crate::linalg::integer::{Division, Integer, Integers, One, Signed, Zero, content};
 use crate::linalg::prime::PrimeField;
 use crate::linalg::rational::Rational;
 use sha2::{Digest, Sha256};
-use std::cmp::Ordering;
 use std::fmt;
 
 /// The centre of each node of a graph: integers (x_1, x_2, x_3, w) without a common factor. In the
@@ -175,8 +174,7 @@ impl Centres {
 
     /// The points c_v (affine: p_v, and 0) of some nodes modulo a prime; nothing if one of them has none.
     pub(super) fn points(&self, field: &PrimeField, nodes: &[u32]) -> Option<Vec<[u64; 3]>> {
-        let p = field.modulus();
-        let residue = |x: &Integer| field.from_u64(x.rem_u64(p));
+        let residue = |x: &Integer| field.from_integer(x);
         let mut scales: Vec<u64> = nodes
             .iter()
             .map(|&v| residue(&self.scale[v as usize]))
@@ -257,30 +255,30 @@ impl Position for Centres {
 }
 
 fn residues(field: &PrimeField, place: &[Integer; 4]) -> [u64; 4] {
-    std::array::from_fn(|k| field.from_u64(place[k].rem_u64(field.modulus())))
+    std::array::from_fn(|k| field.from_integer(&place[k]))
 }
 
 /// A multiple of some fractions by a positive number: integers without a common factor. Nothing if all
 /// are zero.
 fn integral<const K: usize>(values: [&Rational; K]) -> Option<[Integer; K]> {
     let first = Integer::one();
-    let common = values.iter().fold(first, |all, x| all.lcm(x.denominator()));
-    let cleared = values.map(|x| x.numerator().mul(&common.div_exact(x.denominator())));
+    let common = values.iter().fold(first, |all, x| all.lcm(x.denom()));
+    let cleared = values.map(|x| x.numer() * (&common / x.denom()));
     divided(cleared)
 }
 
 fn divided<const K: usize>(values: [Integer; K]) -> Option<[Integer; K]> {
-    let content = Integer::content(&values);
-    (!content.is_zero()).then(|| values.map(|x| x.div_exact(&content)))
+    let content = content(&values);
+    (!content.is_zero()).then(|| values.map(|x| x / &content))
 }
 
 /// The vector without common factor whose last entry that is not zero is positive.
 fn primitive(values: [Integer; 4]) -> Option<[Integer; 4]> {
     let values = divided(values)?;
     let last = values.iter().rev().find(|x| !x.is_zero())?;
-    Some(match last.sign() {
-        Ordering::Less => values.map(|x| x.neg()),
-        _ => values,
+    Some(match last.is_negative() {
+        true => values.map(|x| -x),
+        false => values,
     })
 }
 
@@ -301,8 +299,8 @@ fn chart(model: Model, places: &[[Integer; 4]]) -> (u64, Vec<Integer>) {
 fn level(model: Model, [x, y, z, w]: &[Integer; 4], t: u64) -> Integer {
     let t = Integer::from(t);
     match model {
-        Model::Affine => z.add(&t.mul(&x.add(&t.mul(y)))),
-        _ => w.add(&t.mul(&x.add(&t.mul(&y.add(&t.mul(z)))))),
+        Model::Affine => z + &t * (x + &t * y),
+        _ => w + &t * (x + &t * (y + &t * z)),
     }
 }
 
@@ -312,8 +310,8 @@ mod tests {
 
     fn rational(text: &str) -> Rational {
         let (n, d) = text.split_once('/').unwrap_or((text, "1"));
-        let number = |text: &str| Integer::from_decimal(text).unwrap();
-        Rational::new(number(n), number(d)).unwrap()
+        let number = |text: &str| -> Integer { text.parse().unwrap() };
+        Rational::new(number(n), number(d))
     }
 
     /// The camera [ R | t ] with a quarter turn about the third axis and t = (1, 2, 3) stands at

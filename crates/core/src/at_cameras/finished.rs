@@ -10,7 +10,7 @@ use crate::geometry::draw;
 use crate::graph::UnionFind;
 use crate::linalg::integer::Integer;
 use crate::linalg::prime::PrimeField;
-use crate::linalg::rational::{Rational, Rationals};
+use crate::linalg::rational::{Rational, Rationals, scaled};
 use crate::linalg::sparse_lu::{Factorisation, SparseRow};
 use crate::linalg::{Field, Ring};
 use crate::watch::{Step, Stopped, Task, Watch};
@@ -74,7 +74,7 @@ impl Dyadic {
 
     /// The same number.
     pub fn exact(self) -> Rational {
-        Rational::scaled(Integer::from(self.mantissa), 2, self.exponent)
+        scaled(Integer::from(self.mantissa), 2, self.exponent)
     }
 }
 

@@ -18,7 +18,7 @@ type Rows = [[u64; 3]; 3];
 pub fn open_focal_lengths(graph: &Graph, centres: &Centres) -> Option<Vec<u32>> {
     let field = PrimeField::mersenne61();
     let cofactors = centres.cameras()?.iter().map(|camera| {
-        let at = |r: usize, c: usize| field.from_u64(camera[4 * r + c].rem_u64(field.modulus()));
+        let at = |r: usize, c: usize| field.from_integer(&camera[4 * r + c]);
         let rows: Rows = [0, 1, 2].map(|r| [0, 1, 2].map(|c| at(r, c)));
         [0, 1, 2].map(|r| cross(&field, &rows[(r + 1) % 3], &rows[(r + 2) % 3]))
     });

@@ -155,8 +155,8 @@ impl Here {
 ///
 /// ```
 /// use viewcert::at_cameras::{Centres, at_cameras};
-/// use viewcert::linalg::rational::Rational;
-/// use viewcert::linalg::integer::Integer;
+/// use viewcert::linalg::rational::{Rational};
+/// use viewcert::linalg::integer::{Integer};
 /// use viewcert::{Graph, Model, watch::Watch};
 ///
 /// // A triangle is determined, but not from three places on a line.

@@ -7,8 +7,8 @@
 use super::{Centres, Here};
 use crate::geometry::model::Model;
 use crate::linalg::dixon::{IntegerRow, rank_exact};
-use crate::linalg::integer::Integer;
-use crate::linalg::rational::Rational;
+use crate::linalg::integer::{Integer, Zero};
+use crate::linalg::rational::{Rational, quotient};
 use crate::watch::{Step, Stopped, Watch};
 
 /// With more unknowns motions are not listed: elimination takes their third power.
@@ -26,7 +26,7 @@ impl Motion {
     /// Whether the centre of a node moves.
     pub fn moves(&self, node: u32) -> bool {
         let velocity = self.velocities[node as usize].as_ref();
-        velocity.is_some_and(|velocity| velocity.iter().any(|x| !x.numerator().is_zero()))
+        velocity.is_some_and(|velocity| velocity.iter().any(|x| !x.numer().is_zero()))
     }
 }
 
@@ -155,9 +155,9 @@ impl Unknowns {
                     for column in 0..4 {
                         let terms = (0..4).flat_map(|k| {
                             let entry = 4 * k + column;
-                            [(part, entry, m[k].clone()), (other, entry, m[k].neg())]
+                            [(part, entry, m[k].clone()), (other, entry, -&m[k])]
                         });
-                        let of_factor = m[column].neg();
+                        let of_factor = -&m[column];
                         let of_factor = (!of_factor.is_zero()).then_some(of_factor);
                         push(terms.collect(), of_factor);
                     }
@@ -169,9 +169,9 @@ impl Unknowns {
                     let (x, w) = (&place[k], &place[3]);
                     let terms = vec![
                         (part, k, w.clone()),
-                        (other, k, w.neg()),
+                        (other, k, -w),
                         (part, 3, x.clone()),
-                        (other, 3, x.neg()),
+                        (other, 3, -x),
                     ];
                     push(terms, None);
                 }
@@ -191,24 +191,24 @@ impl Unknowns {
             None => Integer::zero(),
         };
         let w = &place[3];
-        let below = w.mul(w);
+        let below = w * w;
         let velocity: Vec<Option<Rational>> = match self.model {
             // The centre of P (1 + e A) is (1 - e A) C.
             Model::Projective => {
                 let moved: [Integer; 4] = std::array::from_fn(|r| {
                     let mut sum = Integer::zero();
                     for (c, x) in place.iter().enumerate() {
-                        sum.sub_assign(&entry(4 * r + c).mul(x));
+                        sum -= entry(4 * r + c) * x;
                     }
                     sum
                 });
-                let along = |k: usize| moved[k].mul(w).sub(&place[k].mul(&moved[3]));
-                let along = |k: usize| Rational::new(along(k), below.clone());
+                let along = |k: usize| &moved[k] * w - &place[k] * &moved[3];
+                let along = |k: usize| quotient(along(k), below.clone());
                 (0..3).map(along).collect()
             }
             _ => {
-                let along = |k: usize| entry(k).mul(w).add(&entry(3).mul(&place[k]));
-                let along = |k: usize| Rational::new(along(k), w.clone());
+                let along = |k: usize| entry(k) * w + entry(3) * &place[k];
+                let along = |k: usize| quotient(along(k), w.clone());
                 (0..3).map(along).collect()
             }
         };
@@ -225,7 +225,7 @@ fn annihilators(place: &[Integer; 4]) -> [[Integer; 4]; 3] {
         let other = others.next().unwrap_or(0);
         let mut row = std::array::from_fn(|_| Integer::zero());
         row[other] = place[lead].clone();
-        row[lead] = place[other].neg();
+        row[lead] = -&place[other];
         row
     })
 }
@@ -235,6 +235,7 @@ mod tests {
     use super::*;
     use crate::at_cameras::at_cameras;
     use crate::graph::Graph;
+    use crate::linalg::integer::One;
 
     fn points(places: &[[i64; 3]]) -> Vec<[Rational; 3]> {
         let exact = |x: i64| Rational::from(Integer::from(x));
@@ -260,17 +261,16 @@ mod tests {
             let difference: Vec<Integer> = (0..3)
                 .map(|k| {
                     let others = (0..3).filter(|&l| l != k);
-                    let rest = others.fold(Integer::one(), |all, l| {
-                        all.mul(a[l].denominator()).mul(b[l].denominator())
-                    });
-                    let here = a[k].numerator().mul(b[k].denominator());
-                    let there = b[k].numerator().mul(a[k].denominator());
-                    here.sub(&there).mul(&rest)
+                    let rest =
+                        others.fold(Integer::one(), |all, l| all * a[l].denom() * b[l].denom());
+                    let here = a[k].numer() * b[k].denom();
+                    let there = b[k].numer() * a[k].denom();
+                    (here - there) * rest
                 })
                 .collect();
             let cross = |k: usize, l: usize| {
                 let [x, y] = [d[k], d[l]].map(Integer::from);
-                difference[k].mul(&y) == difference[l].mul(&x)
+                &difference[k] * y == &difference[l] * x
             };
             cross(0, 1) && cross(0, 2) && cross(1, 2)
         })

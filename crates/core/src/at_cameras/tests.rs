@@ -1,7 +1,7 @@
 //! Against dense matrices: the paper's own Jacobian over the rationals, and every set of edges by itself.
 
 use super::*;
-use crate::linalg::integer::Integer;
+use crate::linalg::integer::{Integer, One, Zero};
 use crate::linalg::rational::Rational;
 use std::cmp::Ordering;
 
@@ -42,8 +42,8 @@ fn rank(matrix: &Matrix) -> usize {
         for row in below {
             let factor = row[column].clone();
             for k in column..columns {
-                let product = pivot[column].mul(&row[k]).sub(&factor.mul(&pivot[k]));
-                row[k] = product.div_exact(&last);
+                let product = &pivot[column] * &row[k] - &factor * &pivot[k];
+                row[k] = product / &last;
             }
         }
         last = rows[rank][column].clone();

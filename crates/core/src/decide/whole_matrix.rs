@@ -12,7 +12,7 @@ use crate::graph::Graph;
 use crate::linalg::Ring;
 use crate::linalg::bareiss;
 use crate::linalg::dixon;
-use crate::linalg::integer::{Integer, Integers};
+use crate::linalg::integer::{Integer, Integers, content};
 use crate::linalg::prime::PrimeField;
 use crate::linalg::span::Span;
 use crate::linalg::sparse_lu::{Factorisation, Unfinished};
@@ -110,7 +110,7 @@ fn sparse_pivots(
     task: &Task,
 ) -> Result<Pivots, VerdictError> {
     let field = PrimeField::mersenne61();
-    let residue = |x: &Integer| field.from_u64(x.rem_u64(field.modulus()));
+    let residue = |x: &Integer| field.from_integer(x);
     let residues = rows
         .iter()
         .map(|row| {
@@ -184,9 +184,9 @@ fn too_large(graph: &Graph, what: &'static str, (rows, cols): (usize, usize)) ->
 fn primitive_rows(graph: &Graph, cameras: &[Camera<Integer>]) -> SparseRows<Integer> {
     let mut rows = jacobian::jacobian(&Integers, graph, cameras);
     for row in &mut rows {
-        let gcd = Integer::content(row.iter().map(|(_, x)| x));
+        let gcd = content(row.iter().map(|(_, x)| x));
         for (_, x) in row {
-            *x = x.div_exact(&gcd);
+            *x /= &gcd;
         }
     }
     rows
@@ -201,7 +201,7 @@ fn independent_motions(
     kernel: Vec<Vec<Integer>>,
 ) -> Vec<Vec<Integer>> {
     let field = PrimeField::mersenne61();
-    let residue = |x: &Integer| field.from_u64(x.rem_u64(field.modulus()));
+    let residue = |x: &Integer| field.from_integer(x);
     let cameras: Vec<Camera<u64>> = cameras
         .iter()
         .map(|camera| std::array::from_fn(|r| std::array::from_fn(|c| residue(&camera[r][c]))))

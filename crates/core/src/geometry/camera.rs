@@ -49,7 +49,7 @@ pub fn centre<R: Ring>(ring: &R, camera: &Camera<R::Elem>) -> [R::Elem; 4] {
 mod tests {
     use super::*;
     use crate::geometry::draw::{DrawKey, cameras_rational};
-    use crate::linalg::integer::{Integer, Integers};
+    use crate::linalg::integer::{Integer, Integers, Zero};
 
     #[test]
     fn centres_of_cameras() {
@@ -68,10 +68,10 @@ mod tests {
         for camera in drawn.values {
             let c = centre(&Integers, &camera);
             for row in &camera {
-                let terms = row.iter().zip(&c).map(|(a, b)| a.mul(b));
+                let terms = row.iter().zip(&c).map(|(a, b)| a * b);
                 assert!(
                     terms
-                        .fold(Integer::zero(), |sum, term| sum.add(&term))
+                        .fold(Integer::zero(), |sum, term| sum + term)
                         .is_zero()
                 );
             }

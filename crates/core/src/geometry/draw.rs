@@ -36,12 +36,11 @@
 
 use super::camera::{Camera, centre};
 use crate::geometry::placed::residue;
-use crate::linalg::integer::{Integer, Integers};
+use crate::linalg::integer::{Division, Integer, Integers, Signed, Zero, content};
 use crate::linalg::prime::PrimeField;
 use crate::linalg::{Field, Ring};
 use chacha20::ChaCha20Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
-use num_integer::Integer as _;
 use sha2::{Digest, Sha256};
 use std::fmt;
 
@@ -352,13 +351,13 @@ pub fn cameras_rational(
     let centre = |camera: &Camera<Integer>| {
         let mut centre = centre(&Integers, camera);
         let leader = centre.iter().position(|x| !x.is_zero())?;
-        let gcd = Integer::content(&centre);
-        let scale = if centre[leader].sign().is_lt() {
-            gcd.neg()
+        let gcd = content(&centre);
+        let scale = if centre[leader].is_negative() {
+            -gcd
         } else {
             gcd
         };
-        centre = centre.map(|x| x.div_exact(&scale));
+        centre = centre.map(|x| x / &scale);
         Some(centre)
     };
     key.draw(nodes, draw, centre)

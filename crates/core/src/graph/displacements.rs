@@ -132,9 +132,10 @@ impl Displacements {
     ///
     /// ```
     /// use viewcert::graph::Displacements;
+    /// use viewcert::linalg::rational::parse;
     ///
     /// let rigs = [(0, 1, ["1", "0", "0"]), (2, 1, ["0.5", "0", "0"])];
-    /// let rigs = rigs.map(|(u, v, vector)| (u, v, vector.map(|text| text.parse().unwrap())));
+    /// let rigs = rigs.map(|(u, v, vector)| (u, v, vector.map(|text| parse(text).unwrap())));
     /// let known = Displacements::with_vectors(3, rigs)?;
     /// assert_eq!(known.groups(), [vec![0, 1, 2]]);
     /// assert_eq!(known.vectors().unwrap(), [vec![[2, 0, 0], [1, 0, 0]]]);
@@ -241,6 +242,7 @@ fn from_first(group: &[u32], hanging: &mut Hanging) -> Result<Vec<Vector>, Vecto
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::linalg::rational::parse;
 
     #[test]
     fn pairs_that_hang_together_are_one_group() {
@@ -261,7 +263,7 @@ mod tests {
 
     fn given(items: &[(u32, u32, [&str; 3])]) -> Result<Displacements, VectorError> {
         let items = items.iter().map(|&(u, v, vector)| {
-            let vector = vector.map(|text| text.parse().unwrap());
+            let vector = vector.map(|text| parse(text).unwrap());
             (u, v, vector)
         });
         Displacements::with_vectors(9, items)

@@ -3,8 +3,8 @@
 //! In: pairs of nodes with exact coordinates. Out: integers, with the vectors around every cycle
 //! seen to agree (docs/theory.md, Theorem 13.21).
 
-use crate::linalg::integer::Integer;
-use crate::linalg::rational::Rational;
+use crate::linalg::integer::{Division, Integer, One, Signed, ToPrimitive, Zero};
+use crate::linalg::rational::{Rational, parse};
 use std::fmt;
 
 /// Numerators and denominators have at most so many digits.
@@ -48,8 +48,8 @@ impl std::error::Error for CoordinateError {}
 /// # Ok::<(), viewcert::graph::CoordinateError>(())
 /// ```
 pub fn coordinate(text: &str) -> Result<Rational, CoordinateError> {
-    let found: Rational = text.parse().or_else(|_| large_exponent(text))?;
-    let are_short = is_short(found.numerator()) && is_short(found.denominator());
+    let found = parse(text).or_else(|_| large_exponent(text))?;
+    let are_short = is_short(found.numer()) && is_short(found.denom());
     are_short.then_some(found).ok_or(CoordinateError::TooLong)
 }
 
@@ -60,10 +60,10 @@ fn large_exponent(text: &str) -> Result<Rational, CoordinateError> {
         .ok_or(CoordinateError::NoNumber)?;
     let digits = exponent.strip_prefix(['+', '-']).unwrap_or(exponent);
     let is_exponent = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
-    let mantissa = format!("{mantissa}e0").parse::<Rational>();
+    let mantissa = parse(&format!("{mantissa}e0"));
     match mantissa.ok().filter(|_| is_exponent) {
         None => Err(CoordinateError::NoNumber),
-        Some(zero) if zero.numerator().is_zero() => Ok(zero),
+        Some(zero) if zero.numer().is_zero() => Ok(zero),
         Some(_) => Err(CoordinateError::TooLong),
     }
 }
@@ -95,14 +95,14 @@ pub(super) enum Fault {
 pub(super) fn integers(vectors: &[[Rational; 3]]) -> Result<Vec<Vector>, Fault> {
     let mut unit = Integer::one();
     for coordinate in vectors.iter().flatten() {
-        unit = unit.lcm(coordinate.denominator());
+        unit = unit.lcm(coordinate.denom());
         if unit.bits() >= u64::from(i128::BITS) {
             return Err(Fault::TooLong);
         }
     }
     let integer = |coordinate: &Rational| {
-        let factor = unit.div_exact(coordinate.denominator());
-        let product = Some(coordinate.numerator().mul(&factor)).filter(is_short);
+        let factor = &unit / coordinate.denom();
+        let product = Some(coordinate.numer() * factor).filter(is_short);
         product.and_then(|n| n.to_i128()).ok_or(Fault::TooLong)
     };
     let vector = |[x, y, z]: &[Rational; 3]| Ok([integer(x)?, integer(y)?, integer(z)?]);
@@ -194,7 +194,7 @@ mod tests {
 
     fn read(text: &str) -> Result<(i128, i128), CoordinateError> {
         let found = coordinate(text)?;
-        let both = [found.numerator(), found.denominator()];
+        let both = [found.numer(), found.denom()];
         let [numerator, denominator] = both.map(|n| n.to_i128().unwrap());
         Ok((numerator, denominator))
     }

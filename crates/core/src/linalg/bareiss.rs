@@ -3,11 +3,10 @@
 //! Every intermediate entry is a minor of the matrix, so that each division is exact
 //! and no entry is longer than Hadamard's bound.
 
-use crate::linalg::integer::Integer;
+use crate::linalg::integer::{Integer, One, Signed, Zero, content};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::textbook::Pivots;
 use crate::watch::{Stopped, Task};
-use std::cmp::Ordering;
 
 /// An integer matrix, eliminated.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -42,7 +41,8 @@ pub fn eliminate(mut m: Matrix<Integer>, task: &Task) -> Result<FractionFree, St
             .iter()
             .enumerate()
             .filter(|&(_, &row)| !m[(row, col)].is_zero());
-        let smallest = candidates.min_by(|&(_, &a), &(_, &b)| m[(a, col)].cmp_abs(&m[(b, col)]));
+        let smallest = candidates
+            .min_by(|&(_, &a), &(_, &b)| m[(a, col)].magnitude().cmp(m[(b, col)].magnitude()));
         let Some((position, _)) = smallest else {
             continue;
         };
@@ -59,11 +59,11 @@ pub fn eliminate(mut m: Matrix<Integer>, task: &Task) -> Result<FractionFree, St
                 if entry.is_zero() && (factor.is_zero() || above.is_zero()) {
                     continue;
                 }
-                entry.mul_assign(pivot);
+                *entry *= pivot;
                 if !factor.is_zero() && !above.is_zero() {
-                    entry.sub_assign(&factor.mul(above));
+                    *entry -= &factor * above;
                 }
-                *entry = entry.div_exact(&previous);
+                *entry /= &previous;
             }
         }
         pivots.rows.push(pivot_row);
@@ -110,10 +110,10 @@ impl FractionFree {
             let mut sum = Integer::zero();
             for (entry, x) in row.iter().zip(&vector).skip(col + 1) {
                 if !entry.is_zero() && !x.is_zero() {
-                    sum.sub_assign(&entry.mul(x));
+                    sum -= entry * x;
                 }
             }
-            vector[col] = sum.div_exact(&row[col]);
+            vector[col] = sum / &row[col];
         }
         primitive(&mut vector, free);
         vector
@@ -123,12 +123,12 @@ impl FractionFree {
 /// Divides a vector by the greatest common divisor of its entries, with the sign that
 /// makes the entry at `leader`, which is not zero, positive.
 pub(crate) fn primitive(vector: &mut [Integer], leader: usize) {
-    let mut gcd = Integer::content(vector.iter());
-    if vector[leader].sign() == Ordering::Less {
-        gcd = gcd.neg();
+    let mut gcd = content(vector.iter());
+    if vector[leader].is_negative() {
+        gcd = -gcd;
     }
     for x in vector {
-        *x = x.div_exact(&gcd);
+        *x /= &gcd;
     }
 }
 
@@ -200,16 +200,16 @@ mod tests {
             // The determinant modulo a prime, by expansion along permutations.
             let f = PrimeField::mersenne61();
             let minor = m.submatrix(&done.pivots().rows, &done.pivots().cols);
-            let minor = minor.map(|x| f.from_u64(x.rem_u64(f.modulus())));
+            let minor = minor.map(|x| f.from_integer(&x));
             let expected = expand(&f, &minor, &(0..rank).collect::<Vec<_>>());
-            prop_assert_eq!(f.from_u64(done.determinant().rem_u64(f.modulus())), expected);
+            prop_assert_eq!(f.from_integer(done.determinant()), expected);
 
             let kernel = done.kernel();
             prop_assert_eq!(kernel.len(), cols - rank);
             for (v, free) in kernel.iter().zip(done.pivots().free_cols(cols)) {
                 prop_assert!(multiply(&Integers, &m, v).iter().all(Integer::is_zero));
-                prop_assert_eq!(v.iter().fold(Integer::zero(), |g, x| g.gcd(x)), Integer::one());
-                prop_assert_eq!(v[free].sign(), Ordering::Greater);
+                prop_assert!(content(v).is_one());
+                prop_assert!(v[free].is_positive());
             }
         }
     }

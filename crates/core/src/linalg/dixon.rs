@@ -8,13 +8,12 @@
 
 use crate::linalg::bareiss::primitive;
 use crate::linalg::dense_lu::{Echelon, eliminate_mod};
-use crate::linalg::integer::Integer;
+use crate::linalg::integer::{Euclid, Integer, One, Signed, Zero};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::prime::{DEFAULT_PRIME, PrimeField, is_prime};
 use crate::linalg::textbook::Pivots;
 use crate::watch::{Stopped, Task};
 use rayon::prelude::*;
-use std::cmp::Ordering;
 
 /// The entries of an integer row that are not zero: `(column, value)`, columns ascending.
 pub type IntegerRow = Vec<(usize, Integer)>;
@@ -87,7 +86,7 @@ fn rank_at_least(
     let mut m = Matrix::new(rows.len(), cols, vec![0; rows.len() * cols]);
     for (i, row) in rows.iter().enumerate() {
         for (col, value) in row {
-            m[(i, *col)] = field.from_u64(value.rem_u64(field.modulus()));
+            m[(i, *col)] = field.from_integer(value);
         }
     }
     Ok(RankAtLeast {
@@ -148,7 +147,7 @@ fn kernel(
     let mut residues = Matrix::new(rank, rank, vec![0; rank * rank]);
     for (k, row) in minor.iter().enumerate() {
         for (col, value) in row {
-            residues[(k, *col)] = field.from_u64(value.rem_u64(field.modulus()));
+            residues[(k, *col)] = field.from_integer(value);
         }
     }
     let system = System {
@@ -162,7 +161,7 @@ fn kernel(
         .map(|free| {
             let entry = |&row: &usize| {
                 let found = rows[row].binary_search_by_key(&free, |&(col, _)| col);
-                found.map_or(Integer::zero(), |at| rows[row][at].1.neg())
+                found.map_or(Integer::zero(), |at| -&rows[row][at].1)
             };
             let right: Vec<Integer> = pivot_rows.iter().map(entry).collect();
             let accept = |(numerators, denominator): (&[Integer], &Integer)| {
@@ -188,7 +187,7 @@ fn in_kernel(rows: &[IntegerRow], vector: &[Integer]) -> bool {
     rows.iter().all(|row| {
         let mut sum = Integer::zero();
         for (col, value) in row {
-            sum.add_assign(&value.mul(&vector[*col]));
+            sum += value * &vector[*col];
         }
         sum.is_zero()
     })
@@ -217,7 +216,7 @@ impl System<'_> {
         // modulus exceeds twice the square of the bound.
         let bits_of = |row: &IntegerRow, b: &Integer| {
             row.iter()
-                .fold(b.abs(), |sum, (_, value)| sum.add(&value.abs()))
+                .fold(b.abs(), |sum, (_, value)| sum + value.abs())
                 .bits()
         };
         let hadamard: u64 = self
@@ -236,7 +235,7 @@ impl System<'_> {
             task.check()?;
             let right: Vec<u64> = residual
                 .iter()
-                .map(|r| self.field.from_u64(r.rem_u64(self.field.modulus())))
+                .map(|r| self.field.from_integer(r))
                 .collect();
             let digit: Vec<Integer> = self
                 .factors
@@ -246,15 +245,15 @@ impl System<'_> {
                 .map(|x| Integer::from(self.field.to_u64(x)))
                 .collect();
             for (x, digit) in solution.iter_mut().zip(&digit) {
-                x.add_assign(&digit.mul(&modulus));
+                *x += digit * &modulus;
             }
             for (r, row) in residual.iter_mut().zip(&self.rows) {
                 for (col, value) in row {
-                    r.sub_assign(&value.mul(&digit[*col]));
+                    *r -= value * &digit[*col];
                 }
-                *r = r.div_exact(&p);
+                *r /= &p;
             }
-            modulus.mul_assign(&p);
+            modulus *= &p;
             let last = modulus.bits() > enough;
             if digits >= next_try || last {
                 // Ever rarer attempts cost less than the lifting they may save.
@@ -282,7 +281,7 @@ pub fn reconstruct(residues: &[Integer], modulus: &Integer) -> Option<(Vec<Integ
     // A residue times the denominator found so far is most often a small integer.
     let mut denominator = Integer::one();
     for residue in residues {
-        let (_, scaled) = residue.mul(&denominator).div_rem_euclid(modulus);
+        let (_, scaled) = (residue * &denominator).div_rem_euclid(modulus);
         if symmetric(&scaled, modulus).bits() <= half {
             continue;
         }
@@ -291,17 +290,17 @@ pub fn reconstruct(residues: &[Integer], modulus: &Integer) -> Option<(Vec<Integ
         let (mut t0, mut t1) = (Integer::zero(), Integer::one());
         while r1.bits() > half {
             let (q, r) = r0.div_rem_euclid(&r1);
-            let t = t0.sub(&q.mul(&t1));
+            let t = &t0 - q * &t1;
             (r0, r1) = (r1, r);
             (t0, t1) = (t1, t);
         }
-        denominator.mul_assign(&t1.abs());
+        denominator *= t1.abs();
         if denominator.bits() > half {
             return None;
         }
     }
     let numerators = residues.iter().map(|residue| {
-        let (_, scaled) = residue.mul(&denominator).div_rem_euclid(modulus);
+        let (_, scaled) = (residue * &denominator).div_rem_euclid(modulus);
         let numerator = symmetric(&scaled, modulus);
         (numerator.bits() <= half).then_some(numerator)
     });
@@ -310,8 +309,8 @@ pub fn reconstruct(residues: &[Integer], modulus: &Integer) -> Option<(Vec<Integ
 
 /// The residue of least absolute value.
 fn symmetric(residue: &Integer, modulus: &Integer) -> Integer {
-    let negative = residue.sub(modulus);
-    if negative.cmp_abs(residue) == Ordering::Less {
+    let negative = residue - modulus;
+    if negative.magnitude() < residue.magnitude() {
         negative
     } else {
         residue.clone()
@@ -381,7 +380,7 @@ mod tests {
         // The determinant is 2^61 - 1: modulo that prime the rank is one too small.
         let p = Integer::from(DEFAULT_PRIME);
         let n = |x: i64| Integer::from(x);
-        let m = Matrix::new(2, 2, vec![n(1), n(1), n(1), p.add(&n(1))]);
+        let m = Matrix::new(2, 2, vec![n(1), n(1), n(1), &p + 1]);
         let field = PrimeField::mersenne61();
         let bound = unwatched(|task| rank_at_least(&field, &sparse(&m), 2, task)).bound();
         assert_eq!(bound, 1);
@@ -390,30 +389,15 @@ mod tests {
         assert!(exact.lower().prime() < DEFAULT_PRIME);
 
         // The same with a third column and row that depend on the others.
-        let entries = [
-            n(1),
-            n(1),
-            n(2),
-            n(1),
-            p.add(&n(1)),
-            p.add(&n(2)),
-            n(2),
-            n(2),
-            n(4),
-        ];
+        let entries = [n(1), n(1), n(2), n(1), &p + 1, &p + 2, n(2), n(2), n(4)];
         verify(&Matrix::new(3, 3, entries.to_vec()), 2);
     }
 
     #[test]
     fn long_entries() {
-        let big = Integer::from_decimal("123456789012345678901234567890123456789").unwrap();
+        let big: Integer = "123456789012345678901234567890123456789".parse().unwrap();
         let m = known_rank(&Integers, 9, 8, 6, 11, 5);
-        let scaled = Matrix::from_fn(9, 8, |i, j| {
-            m[(i, j)]
-                .mul(&Integer::from(1 + 3 * j as i64))
-                .mul(&big)
-                .add(&Integer::zero())
-        });
+        let scaled = Matrix::from_fn(9, 8, |i, j| &m[(i, j)] * (1 + 3 * j as i64) * &big);
         verify(&scaled, 6);
     }
 

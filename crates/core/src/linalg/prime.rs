@@ -4,6 +4,7 @@
 //! into 128 bits, so that one reduction serves a whole dot product instead of one
 //! product.
 
+use crate::linalg::integer::{Integer, Signed, ToPrimitive};
 use crate::linalg::{Field, Ring};
 use std::fmt;
 
@@ -177,6 +178,15 @@ impl PrimeField {
     /// The residue class of `value`.
     pub fn from_u64(&self, value: u64) -> u64 {
         self.redc(u128::from(value % self.p) * u128::from(self.r2))
+    }
+
+    /// The residue class of an integer of any size.
+    pub fn from_integer(&self, value: &Integer) -> u64 {
+        let residue = self.from_u64((value.magnitude() % self.p).to_u64().unwrap_or_default());
+        match value.is_negative() {
+            true => self.negate(residue),
+            false => residue,
+        }
     }
 
     /// The least residue, 0 <= r < p, of an element.

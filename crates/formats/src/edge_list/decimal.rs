@@ -4,8 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use crate::edge_list::fields::is_number;
-use viewcert::linalg::Ring;
-use viewcert::linalg::rational::{Rational, Rationals};
+use viewcert::linalg::rational::{Rational, parse};
 
 /// A decimal number.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -27,7 +26,7 @@ impl FromStr for Decimal {
         let text = Some(text).filter(|text| is_number(text.as_bytes()));
         let text = text.ok_or(NoDecimal)?;
         Ok(Self {
-            value: text.parse().map_err(|_| NoDecimal)?,
+            value: parse(text).map_err(|_| NoDecimal)?,
             text: text.into(),
         })
     }
@@ -37,11 +36,7 @@ impl Decimal {
     /// Whether a weight is less; an error if it is no number.
     pub(crate) fn is_above(&self, weight: &str) -> Result<bool, NoDecimal> {
         let weight = weight.parse::<Self>()?.value;
-        Ok(Rationals
-            .sub(&weight, &self.value)
-            .numerator()
-            .sign()
-            .is_lt())
+        Ok(weight < self.value)
     }
 }
 

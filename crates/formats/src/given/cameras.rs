@@ -20,8 +20,8 @@ use crate::error::{Fault, Problem, ReadError};
 use crate::{Model, NamedGraph, matlab};
 use viewcert::geometry::camera::Camera;
 use viewcert::geometry::model::Model as Question;
-use viewcert::linalg::integer::Integer;
-use viewcert::linalg::rational::Rational;
+use viewcert::linalg::integer::{Division, Integer, One, Zero};
+use viewcert::linalg::rational::{Rational, parse};
 use viewcert::wording::counted;
 
 /// A camera, row by row.
@@ -174,7 +174,7 @@ fn twice(camera: &str) -> Problem {
 
 fn number(field: Field, line: &str) -> Result<Rational, Problem> {
     let text = field.text(line);
-    let number = text.parse();
+    let number = parse(&text);
     number.map_err(|_| {
         let text = shown(&text);
         Problem::new(
@@ -218,20 +218,20 @@ fn of_pose([q @ .., x, y, z]: &[Rational; 7]) -> Camera<Rational> {
     let one = Integer::one();
     let cleared = |values: &[&Rational]| -> (Integer, Vec<Integer>) {
         let first = one.clone();
-        let common = values.iter().fold(first, |all, a| all.lcm(a.denominator()));
-        let scaled = |a: &&Rational| a.numerator().mul(&common.div_exact(a.denominator()));
+        let common = values.iter().fold(first, |all, a| all.lcm(a.denom()));
+        let scaled = |a: &&Rational| a.numer() * (&common / a.denom());
         let scaled = values.iter().map(scaled).collect();
         (common, scaled)
     };
     let (_, q) = cleared(&q.each_ref());
     let (unit, t) = cleared(&[x, y, z]);
-    let times = |i: usize, j: usize| q[i].mul(&q[j]);
-    let twice = |a: Integer| a.add(&a);
-    let norm = (0..4).fold(Integer::zero(), |sum, i| sum.add(&times(i, i)));
+    let times = |i: usize, j: usize| &q[i] * &q[j];
+    let twice = |a: Integer| a.clone() + a;
+    let norm = (0..4).fold(Integer::zero(), |sum, i| sum + times(i, i));
     // |q|^2 on the diagonal, less twice the squares of the two other axes.
-    let diagonal = |i: usize, j: usize| norm.sub(&twice(times(i, i).add(&times(j, j))));
-    let plus = |i: usize, j: usize, k: usize| twice(times(i, j).add(&times(0, k)));
-    let minus = |i: usize, j: usize, k: usize| twice(times(i, j).sub(&times(0, k)));
+    let diagonal = |i: usize, j: usize| &norm - twice(times(i, i) + times(j, j));
+    let plus = |i: usize, j: usize, k: usize| twice(times(i, j) + times(0, k));
+    let minus = |i: usize, j: usize, k: usize| twice(times(i, j) - times(0, k));
     let rotation = [
         [diagonal(2, 3), minus(1, 2, 3), plus(1, 3, 2)],
         [plus(1, 2, 3), diagonal(1, 3), minus(2, 3, 1)],
@@ -239,8 +239,8 @@ fn of_pose([q @ .., x, y, z]: &[Rational; 7]) -> Camera<Rational> {
     ];
     std::array::from_fn(|r| {
         std::array::from_fn(|c| match c {
-            3 => norm.mul(&t[r]).into(),
-            _ => rotation[r][c].mul(&unit).into(),
+            3 => (&norm * &t[r]).into(),
+            _ => (&rotation[r][c] * &unit).into(),
         })
     })
 }
@@ -251,6 +251,7 @@ mod tests {
     use crate::model::exact;
     use crate::{ReadOptions, read_graphs};
     use viewcert::at_cameras::Centres;
+    use viewcert::linalg::rational::scaled;
 
     fn graph(text: &str) -> NamedGraph {
         let file = tempfile::NamedTempFile::new().unwrap();
@@ -320,13 +321,10 @@ mod tests {
     /// 0.1 as a double is not a tenth.
     #[test]
     fn doubles_are_exact() {
-        let tenth: Rational = "3602879701896397/36028797018963968".parse().unwrap();
+        let tenth = parse("3602879701896397/36028797018963968").unwrap();
         assert_eq!(exact(0.1), Some(tenth));
-        assert_eq!(exact(-3.0), "-3".parse().ok());
+        assert_eq!(exact(-3.0), parse("-3").ok());
         assert_eq!(exact(f64::NAN), None);
-        assert_eq!(
-            exact(5e-324).unwrap(),
-            Rational::scaled(Integer::one(), 2, -1074)
-        );
+        assert_eq!(exact(5e-324).unwrap(), scaled(Integer::one(), 2, -1074));
     }
 }

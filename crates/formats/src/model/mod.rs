@@ -16,7 +16,7 @@ use std::fs::File;
 use std::io::{self, BufWriter};
 use std::path::Path;
 use viewcert::at_cameras::finished::Dyadic;
-use viewcert::linalg::rational::Rational;
+use viewcert::linalg::rational::{Rational, parse};
 
 use crate::error::{Fault, Problem, ReadError};
 use crate::tracks::Frames;
@@ -339,7 +339,7 @@ impl Model {
     pub fn poses(&self) -> Result<Vec<[Rational; 7]>, String> {
         let image = |image: &Image| {
             let double = |bytes| exact(f64::from_le_bytes(bytes));
-            let pose = fields_of(self.encoding, &image.pose, double, |word| word.parse().ok());
+            let pose = fields_of(self.encoding, &image.pose, double, |word| parse(word).ok());
             pose.ok_or_else(|| image.name.to_string())
         };
         self.images.iter().map(image).collect()

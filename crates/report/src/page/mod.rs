@@ -7,7 +7,6 @@
 //! Names come from files of others. They are escaped; and the page's policy lets no script run
 //! but its own.
 
-use super::motion;
 use super::scene::{COLOURS, Kind, Scene, escaped};
 use super::{Report, json};
 use base64::{Engine, prelude::BASE64_STANDARD};
@@ -18,11 +17,6 @@ use std::io::{self, Write};
 const TEMPLATE: &str = include_str!("template.html");
 const STYLE: &str = include_str!("style.css");
 const SCRIPT: &str = include_str!("script.js");
-
-/// The section with the motions at given cameras, which is there only if there are some.
-const MOTION: &str = "<section id=\"motion\"><h2>What moves at the given cameras</h2>\n<p class=\"explanation\">\
-    Motions of first order, exact, that leave all pairs as they are; the largest part is held still, and arrows show \
-    where the other centres go. Colours are the parts here.</p>\n";
 
 /// What a page says before the report: the answer in a sentence, and the words of a command.
 pub(crate) struct Foreword<'a> {
@@ -113,11 +107,6 @@ pub(crate) fn write(
             "report" => embed(out, numbers.trim_ascii_end())?,
             "drawing" => embed(out, &drawing)?,
             "picture" => out.write_all(scene.svg(false).as_bytes())?,
-            "motion" => {
-                if let Some(picture) = report.here.as_ref().and_then(motion::picture) {
-                    write!(out, "{MOTION}{picture}</section>")?;
-                }
-            }
             _ => unreachable!("the template has no field {name}"),
         }
         out.write_all(rest.as_bytes())?;

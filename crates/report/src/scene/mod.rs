@@ -16,8 +16,7 @@ use viewcert::decide::{Component, Verdict};
 use viewcert::graph::{Lists, UnionFind};
 use viewcert_formats::NamedGraph;
 
-pub(crate) use svg::text;
-pub use svg::{COLOURS, document, escaped};
+pub use svg::{COLOURS, document, escaped, text};
 
 /// Most nodes that are all drawn; of more, so many, and of these so many outside the largest component.
 const MOST_NODES: usize = 1000;
@@ -31,7 +30,7 @@ const MARKS: usize = 4 * COLOURS.len();
 
 /// What a line stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Kind {
+pub enum Kind {
     /// A pair of the graph, or images that see points together.
     Pair,
     /// Images that are matched, and no track of theirs counts.
@@ -44,12 +43,15 @@ pub(crate) enum Kind {
 
 /// A line between two nodes, the smaller one first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Edge {
-    pub(crate) ends: (u32, u32),
-    pub(crate) group: Option<u32>,
-    pub(crate) kind: Kind,
+pub struct Edge {
+    /// The two nodes.
+    pub ends: (u32, u32),
+    /// Its group, if it is in one.
+    pub group: Option<u32>,
+    /// What it stands for.
+    pub kind: Kind,
     /// How many points, or lines, it stands for.
-    pub(crate) weight: u32,
+    pub weight: u32,
 }
 
 /// How a group looks.
@@ -65,17 +67,20 @@ pub(crate) enum Mark {
 
 /// A graph as it is drawn.
 pub struct Scene {
-    pub(crate) title: String,
-    pub(crate) names: Vec<String>,
+    /// Above the picture.
+    pub title: String,
+    /// Of each node.
+    pub names: Vec<String>,
     /// What each group is, in words.
-    pub(crate) groups: Vec<String>,
+    pub groups: Vec<String>,
     /// How many groups, the first ones, have more than one edge.
-    pub(crate) larger: usize,
+    pub larger: usize,
     /// For every node its groups, increasing.
-    pub(crate) groups_of: Lists,
-    pub(crate) edges: Vec<Edge>,
+    pub groups_of: Lists,
+    /// The lines.
+    pub edges: Vec<Edge>,
     /// What an edge of the graph is.
-    pub(crate) edge: &'static str,
+    pub edge: &'static str,
 }
 
 impl Scene {

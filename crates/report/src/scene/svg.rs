@@ -125,7 +125,7 @@ impl Scene {
     }
 
     /// Some nodes, given increasing, with lines and names if there are any.
-    pub(crate) fn body(
+    pub fn body(
         &self,
         nodes: &[u32],
         edges: &[Edge],
@@ -314,7 +314,7 @@ impl Scene {
 }
 
 /// Text whose anchor is `"start"`, `"middle"` or `"end"`.
-pub(crate) fn text(out: &mut String, [x, y]: [f64; 2], size: u32, anchor: &str, words: &str) {
+pub fn text(out: &mut String, [x, y]: [f64; 2], size: u32, anchor: &str, words: &str) {
     // Writing to a string does not fail.
     let _ = writeln!(
         out,

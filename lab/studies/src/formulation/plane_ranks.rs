@@ -17,7 +17,7 @@ use viewcert::graph::Graph;
 use viewcert::linalg::Field;
 use viewcert::linalg::Ring;
 use viewcert::linalg::dixon::{IntegerRow, rank_exact};
-use viewcert::linalg::integer::{Integer, Integers};
+use viewcert::linalg::integer::{Division, Integer, Integers, One, Zero, content};
 use viewcert::linalg::prime::PrimeField;
 use viewcert::linalg::rational::Rational;
 use viewcert::watch::unwatched;
@@ -109,26 +109,23 @@ pub fn modular(
 fn homogeneous(camera: &Camera<Rational>) -> [Integer; 4] {
     let rows = camera.each_ref().map(whole);
     let point = centre(&Integers, &rows);
-    let gcd = Integer::content(&point);
-    point.map(|x| x.div_exact(&gcd))
+    let gcd = content(&point);
+    point.map(|x| x / &gcd)
 }
 
 /// The multiple of a row that has integer entries: a camera with its rows scaled has the
 /// same centre.
 fn whole(row: &[Rational; 4]) -> [Integer; 4] {
-    let lcm = row
-        .iter()
-        .fold(Integer::one(), |lcm, x| lcm.lcm(x.denominator()));
-    row.each_ref()
-        .map(|x| x.numerator().mul(&lcm.div_exact(x.denominator())))
+    let lcm = row.iter().fold(Integer::one(), |lcm, x| lcm.lcm(x.denom()));
+    row.each_ref().map(|x| x.numer() * (&lcm / x.denom()))
 }
 
 /// Two integer directions orthogonal to the difference of two centres.
 fn integer_directions(ci: &[Integer; 4], cj: &[Integer; 4]) -> [[Integer; 3]; 2] {
-    let d: [Integer; 3] = std::array::from_fn(|k| ci[k].mul(&cj[3]).sub(&cj[k].mul(&ci[3])));
-    let gcd = Integer::content(&d);
+    let d: [Integer; 3] = std::array::from_fn(|k| &ci[k] * &cj[3] - &cj[k] * &ci[3]);
+    let gcd = content(&d);
     assert!(!gcd.is_zero(), "centres are distinct");
-    let d = d.map(|x| x.div_exact(&gcd));
+    let d = d.map(|x| x / &gcd);
     let zero = std::array::from_fn(|_| Integer::zero());
     directions(&Integers, &d, &zero).expect("the difference is not zero")
 }
@@ -154,7 +151,7 @@ pub fn rational(graph: &Graph, cameras: &[Camera<Rational>]) -> PlaneRanks {
         for (t, a) in both.iter().enumerate() {
             for (k, x) in a.iter().enumerate().filter(|(_, x)| !x.is_zero()) {
                 columns[3 * i as usize + k].push((2 * e + t, x.clone()));
-                columns[3 * j as usize + k].push((2 * e + t, x.neg()));
+                columns[3 * j as usize + k].push((2 * e + t, -x));
             }
         }
     }
@@ -166,7 +163,7 @@ pub fn rational(graph: &Graph, cameras: &[Camera<Rational>]) -> PlaneRanks {
     for weights in transposed.kernel() {
         let normal = |e: usize| -> [Integer; 3] {
             let (s, t) = (&weights[2 * e], &weights[2 * e + 1]);
-            std::array::from_fn(|k| s.mul(&both[e][0][k]).add(&t.mul(&both[e][1][k])))
+            std::array::from_fn(|k| s * &both[e][0][k] + t * &both[e][1][k])
         };
         let normals: Vec<[Integer; 3]> = cotree.iter().map(|&e| normal(e)).collect();
         for k in 0..3 {
@@ -176,8 +173,8 @@ pub fn rational(graph: &Graph, cameras: &[Camera<Rational>]) -> PlaneRanks {
         let ends: Vec<&[Integer; 4]> = cotree.iter().map(|&e| at(graph.edges()[e].1)).collect();
         let lcm = ends.iter().fold(Integer::one(), |lcm, c| lcm.lcm(&c[3]));
         rows.push(sparse(normals.iter().zip(ends).map(|(omega, c)| {
-            let dot = (0..3).fold(Integers.zero(), |sum, k| sum.add(&omega[k].mul(&c[k])));
-            dot.mul(&lcm.div_exact(&c[3]))
+            let dot = (0..3).fold(Integer::zero(), |sum, k| sum + &omega[k] * &c[k]);
+            dot * (&lcm / &c[3])
         })));
     }
     PlaneRanks {

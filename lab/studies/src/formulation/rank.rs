@@ -8,7 +8,7 @@ use viewcert::geometry::jacobian::SparseRows;
 use viewcert::graph::Graph;
 use viewcert::linalg::Field;
 use viewcert::linalg::dixon::{IntegerRow, rank_exact};
-use viewcert::linalg::integer::Integer;
+use viewcert::linalg::integer::{Division, Integer, One, content};
 use viewcert::linalg::prime::PrimeField;
 use viewcert::linalg::rational::{Rational, Rationals};
 use viewcert::linalg::sparse_lu::Factorisation;
@@ -74,17 +74,14 @@ fn integer_rows(rows: &SparseRows<Rational>) -> Vec<IntegerRow> {
         .map(|row| {
             let denominator = row
                 .iter()
-                .fold(Integer::one(), |lcm, (_, x)| lcm.lcm(x.denominator()));
+                .fold(Integer::one(), |lcm, (_, x)| lcm.lcm(x.denom()));
             let whole = row.iter().map(|(col, x)| {
-                let factor = denominator.div_exact(x.denominator());
-                (*col, x.numerator().mul(&factor))
+                let factor = &denominator / x.denom();
+                (*col, x.numer() * factor)
             });
             let whole: IntegerRow = whole.collect();
-            let gcd = Integer::content(whole.iter().map(|(_, x)| x));
-            whole
-                .iter()
-                .map(|(col, x)| (*col, x.div_exact(&gcd)))
-                .collect()
+            let gcd = content(whole.iter().map(|(_, x)| x));
+            whole.iter().map(|(col, x)| (*col, x / &gcd)).collect()
         })
         .collect()
 }
@@ -97,7 +94,7 @@ mod tests {
     #[test]
     fn fractions_and_residues() {
         // (1/2, 1/3) and (3/4, 1/2) are proportional, (1/2, 1/4) is not.
-        let fraction = |a: i64, b: i64| Rational::new(a.into(), b.into()).unwrap();
+        let fraction = |a: i64, b: i64| Rational::new(a.into(), b.into());
         let row = |x, y| vec![(0, x), (1, y)];
         let first = row(fraction(1, 2), fraction(1, 3));
         let second = row(fraction(3, 4), fraction(1, 2));

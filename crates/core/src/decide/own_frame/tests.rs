@@ -1,5 +1,6 @@
 use super::*;
 use crate::decide::{Known, Options, Question, decide};
+use crate::linalg::integer::Integer;
 use crate::linalg::prime::PrimeField;
 use crate::linalg::rational::Rational;
 use rand::{RngExt, SeedableRng};
@@ -19,7 +20,7 @@ struct Case {
 impl Case {
     fn decided(&self) -> OwnFrame {
         let graph = Graph::new(self.nodes, self.pairs.iter().copied()).unwrap();
-        let of = |n: i64| -> Rational { n.to_string().parse().unwrap() };
+        let of = |n: i64| -> Rational { Integer::from(n).into() };
         let given = (0..).zip(&self.places);
         let given: Vec<(u32, Place)> = given
             .filter_map(|(v, place)| Some((v, (*place)?)))

@@ -4,13 +4,15 @@
 //! In: centres and velocities, exact. Out: a picture in floating point, which proves nothing. Velocities are of
 //! first order: arrows are tangents of paths, and their lengths are to scale within one motion only.
 
-use super::at_cameras::HereReport;
-use super::counted;
-use super::scene::{Edge, Kind, Scene, document, text};
 use std::fmt::Write;
+use viewcert::at_cameras::{Centres, Here, Motion};
+use viewcert::decide::Component;
 use viewcert::graph::Lists;
-use viewcert::linalg::integer::Integer;
-use viewcert::linalg::rational::Rational;
+use viewcert::linalg::integer::{Integer, Signed, decimal};
+use viewcert::linalg::rational::{Rational, quotient};
+use viewcert::wording::counted;
+use viewcert_formats::NamedGraph;
+use viewcert_report::scene::{Edge, Kind, Scene, document, text};
 
 /// Most motions that are drawn, in rows of three.
 const DRAWN: usize = 6;
@@ -22,8 +24,17 @@ const MARGIN: f64 = 36.0;
 /// The longest arrow, as a part of the panel.
 const LONGEST: f64 = 0.22;
 
+/// What moves, and where.
+pub(super) struct Moved<'a> {
+    pub(super) input: &'a NamedGraph,
+    pub(super) here: &'a Here,
+    pub(super) centres: &'a Centres,
+    /// A basis.
+    pub(super) motions: &'a [Motion],
+}
+
 /// The picture of the motions that are left; `None` if there are none, or none that can be drawn.
-pub fn picture(report: &HereReport) -> Option<String> {
+pub(super) fn picture(report: &Moved) -> Option<String> {
     let input = report.input;
     let centres: Vec<(u32, [f64; 3])> = (0..)
         .zip(report.centres.places())
@@ -105,19 +116,23 @@ pub fn picture(report: &HereReport) -> Option<String> {
 }
 
 /// The cameras whose centres are not at infinity, in the colours of the parts here.
-fn scene(report: &HereReport, centres: &[(u32, [f64; 3])]) -> Scene {
+fn scene(report: &Moved, centres: &[(u32, [f64; 3])]) -> Scene {
     let node = |v: u32| {
         centres
             .binary_search_by_key(&v, |&(v, _)| v)
             .ok()
             .map(|k| k as u32)
     };
-    let pairs = report
-        .input
-        .graph
-        .edges()
-        .iter()
-        .zip(report.parts_of_edges());
+    let parts = report.here.components.value.iter().map(Component::nodes);
+    let parts: Vec<Vec<u32>> = parts.collect();
+    let part_of = |&(i, j): &(u32, u32)| {
+        let holds = |part: &Vec<u32>, v: u32| part.binary_search(&v).is_ok();
+        parts
+            .iter()
+            .position(|part| holds(part, i) && holds(part, j))
+    };
+    let pairs = report.input.graph.edges().iter();
+    let pairs = pairs.map(|pair| (pair, part_of(pair)));
     let edges = pairs.filter_map(|(&(i, j), part)| {
         Some(Edge {
             ends: (node(i)?, node(j)?),
@@ -135,7 +150,7 @@ fn scene(report: &HereReport, centres: &[(u32, [f64; 3])]) -> Scene {
         .collect();
     members.sort_unstable();
     members.dedup();
-    let parts = report.here.components.value.len();
+    let parts = parts.len();
     let name = |&(v, _): &(u32, _)| report.input.labels.label(v).into_owned();
     Scene {
         title: String::new(),
@@ -202,7 +217,7 @@ fn flat(axis: Option<usize>, [x, y, z]: &[f64; 3]) -> [f64; 2] {
 
 /// A centre in space; nothing at infinity.
 fn centre([x, y, z, w]: &[Integer; 4]) -> Option<[f64; 3]> {
-    let over = |x: &Integer| Rational::new(x.clone(), w.clone()).map(|x| float(&x));
+    let over = |x: &Integer| quotient(x.clone(), w.clone()).map(|x| float(&x));
     Some([over(x)?, over(y)?, over(z)?])
 }
 
@@ -213,13 +228,9 @@ fn float(x: &Rational) -> f64 {
         let mantissa: f64 = format!("0.{text}").parse().unwrap_or_default();
         (mantissa, text.len() as i32)
     };
-    let (above, below) = (digits(x.numerator()), digits(x.denominator()));
+    let (above, below) = (digits(x.numer()), digits(x.denom()));
     let size = above.0 / below.0 * 10f64.powi(above.1 - below.1);
-    if x.numerator().sign().is_lt() {
-        -size
-    } else {
-        size
-    }
+    if x.numer().is_negative() { -size } else { size }
 }
 
 #[cfg(test)]
@@ -227,7 +238,7 @@ mod tests {
     use super::*;
 
     fn rational(n: &str, d: &str) -> Rational {
-        let integer = |text: &str| Integer::from_decimal(text).unwrap();
+        let integer = |text: &str| decimal(text).unwrap();
         Rational::new(integer(n), integer(d)).unwrap()
     }
 
