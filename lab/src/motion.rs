@@ -8,7 +8,7 @@ use std::fmt::Write;
 use viewcert::at_cameras::{Centres, Here, Motion};
 use viewcert::decide::Component;
 use viewcert::graph::Lists;
-use viewcert::linalg::integer::{Integer, Signed, decimal};
+use viewcert::linalg::integer::{Integer, Signed};
 use viewcert::linalg::rational::{Rational, quotient};
 use viewcert::wording::counted;
 use viewcert_formats::NamedGraph;
@@ -236,6 +236,7 @@ fn float(x: &Rational) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use viewcert::linalg::integer::decimal;
 
     fn rational(n: &str, d: &str) -> Rational {
         let integer = |text: &str| decimal(text).unwrap();

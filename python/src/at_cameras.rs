@@ -11,6 +11,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use viewcert::Model;
 use viewcert::at_cameras::{Centres, Here, HereError, Special, at_cameras, open_focal_lengths};
+use viewcert::linalg::integer::{Integer, Zero};
+use viewcert::linalg::integer::{Integer, Zero};
 use viewcert::linalg::rational::{Rational, parse};
 use viewcert_advice::Advice;
 use viewcert_formats::{NamedGraph, cameras_beside, centre_error};
@@ -83,7 +85,7 @@ impl Cameras {
                 12,
             );
         }
-        let of_place = |[x @ .., w]: &[viewcert::linalg::integer::Integer; 4]| {
+        let of_place = |[x @ .., w]: &[Integer; 4]| {
             let below = if w.is_zero() {
                 String::new()
             } else {

@@ -14,9 +14,7 @@ use viewcert::decide::{
     CountSolutions, Options, Question, SolutionCount, Value, Verdict, VerdictError, decide,
 };
 use viewcert::graph::{Graph, graph6};
-use viewcert::linalg::Ring;
-use viewcert::linalg::integer::Integer;
-use viewcert::linalg::rational::{Rational, Rationals};
+use viewcert::linalg::rational::{Rational, parse, scaled};
 use viewcert::watch::Watch;
 use viewcert::wording::counted;
 use viewcert_formats::read::{Graphs, graphs};
@@ -184,12 +182,12 @@ fn range(column: &str, text: &str) -> Result<Range, &'static str> {
 /// A decimal that is not negative, less and more one unit of its last digit.
 fn decimal(text: &str) -> Option<[Rational; 2]> {
     let is_decimal = !text.contains('/') && !text.starts_with('-');
-    let value: Rational = text.parse().ok().filter(|_| is_decimal)?;
+    let value = parse(text).ok().filter(|_| is_decimal)?;
     let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
     let behind = mantissa.split('.').nth(1).map_or(0, str::len) as i64;
     let last = exponent.parse::<i64>().ok()? - behind;
-    let unit = Rational::scaled(Integer::one(), 10, last);
-    Some([Rationals.sub(&value, &unit), Rationals.add(&value, &unit)])
+    let unit = scaled(1.into(), 10, last);
+    Some([&value - &unit, value + unit])
 }
 
 impl Claim {

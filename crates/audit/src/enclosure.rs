@@ -6,15 +6,13 @@
 
 use crate::linear::{envelope_order, gram, reordered};
 use ethnum::{AsI256, I256};
-use std::cmp::Ordering;
 use viewcert::Model;
 use viewcert::at_cameras::{Centres, Here};
 use viewcert::decide::VerdictError;
 use viewcert::geometry::jacobian::{self, SparseRows, VECH};
 use viewcert::graph::Graph;
-use viewcert::linalg::Ring;
-use viewcert::linalg::integer::{Integer, Integers};
-use viewcert::linalg::rational::{Rational, Rationals};
+use viewcert::linalg::integer::{Integer, Integers, One, Signed, Zero, decimal};
+use viewcert::linalg::rational::{Rational, scaled};
 use viewcert::watch::{Step, Stopped, Task, Watch};
 
 /// Why nothing is enclosed at centres.
@@ -42,22 +40,22 @@ pub fn matrix(model: Model, nodes: usize) -> Option<(&'static str, usize, usize)
 
 /// e sqrt(a / b), rounded towards zero.
 fn root_of(e: &Integer, a: &Integer, b: &Integer) -> I256 {
-    let square = e.mul(e).mul(a).div_rem_euclid(b).0;
-    let root = square.square_root().to_string().parse();
+    let square = e * e * a / b;
+    let root = square.sqrt().to_string().parse();
     let root: I256 = root.unwrap_or_else(|_| unreachable!("entries have few bits"));
-    if e.sign().is_lt() { -root } else { root }
+    if e.is_negative() { -root } else { root }
 }
 
 fn squares<'a>(entries: impl IntoIterator<Item = &'a Integer>) -> Integer {
     let entries = entries.into_iter();
-    entries.fold(Integer::zero(), |sum, x| sum.add(&x.mul(x)))
+    entries.fold(Integer::zero(), |sum, x| sum + x * x)
 }
 
 /// J_P at cameras, where all P_v and F_ij have Frobenius norm 10 as in the literature, times 2 to a power; and that power.
 /// No entry is above twice the square of the norm.
 fn projective(graph: &Graph, cameras: &[[Integer; 12]]) -> (SparseRows<I256>, i64) {
     let beta = 91;
-    let above = Rational::scaled(Integer::from(10_000u64), 2, 2 * beta);
+    let above = scaled(Integer::from(10_000u64), 2, 2 * beta);
     let matrix =
         |p: &[Integer; 12]| std::array::from_fn(|r| std::array::from_fn(|c| p[4 * r + c].clone()));
     let matrices: Vec<_> = cameras.iter().map(matrix).collect();
@@ -68,10 +66,10 @@ fn projective(graph: &Graph, cameras: &[[Integer; 12]]) -> (SparseRows<I256>, i6
         let [p_i, p_j] = ends.map(|v| &matrices[v]);
         let of_f = squares(jacobian::fundamental(&Integers, p_i, p_j).iter().flatten());
         // The columns of a camera are those of F times the other camera.
-        let below = [ends[1], ends[0]].map(|other| of_f.mul(&squares(&cameras[other])));
+        let below = [ends[1], ends[0]].map(|other| &of_f * squares(&cameras[other]));
         let entry = |(k, e): &(usize, Integer)| {
             let below = &below[usize::from(k / 12 != ends[0])];
-            (*k, root_of(e, above.numerator(), below))
+            (*k, root_of(e, above.numer(), below))
         };
         let rows = block.iter().map(|row| row.iter().map(entry).collect());
         rows.collect::<Vec<_>>()
@@ -82,17 +80,17 @@ fn projective(graph: &Graph, cameras: &[[Integer; 12]]) -> (SparseRows<I256>, i6
 /// The bearing matrix at centres that are not at infinity, times 2 to a power; and that power. No entry is above 1.
 fn bearing(graph: &Graph, places: &[[Integer; 4]]) -> (SparseRows<I256>, i64) {
     let beta = 99;
-    let above = Rational::scaled(Integer::one(), 2, 2 * beta);
+    let above = scaled(Integer::one(), 2, 2 * beta);
     let mut rows = Vec::new();
     for &(i, j) in graph.edges() {
         let [a, b] = [i, j].map(|v| &places[v as usize]);
-        let d: [Integer; 3] = std::array::from_fn(|k| a[k].mul(&b[3]).sub(&b[k].mul(&a[3])));
+        let d: [Integer; 3] = std::array::from_fn(|k| &a[k] * &b[3] - &b[k] * &a[3]);
         let square = squares(&d);
-        let below = square.mul(&square);
+        let below = &square * &square;
         rows.extend((0..3).map(|r| {
             let entry = |c: usize| {
                 let all = if r == c { &square } else { &Integer::zero() };
-                root_of(&all.sub(&d[r].mul(&d[c])), above.numerator(), &below)
+                root_of(&(all - &d[r] * &d[c]), above.numer(), &below)
             };
             let of =
                 |v: u32, sign: I256| (0..3).map(move |c| (3 * v as usize + c, sign * entry(c)));
@@ -184,11 +182,6 @@ pub struct Enclosure {
     pub most: Rational,
 }
 
-/// As a is smaller than b, equal or larger.
-fn compare(a: &Rational, b: &Rational) -> Ordering {
-    Rationals.sub(a, b).numerator().sign()
-}
-
 impl Enclosure {
     /// Where the rank is smaller than the place needs.
     pub(crate) fn zero() -> Self {
@@ -200,29 +193,27 @@ impl Enclosure {
     /// Of the squares of a rounded matrix.
     fn new(gram: &Gram, low: I256, high: I256) -> Self {
         let root = |x: I256| {
-            let x = Integer::from_decimal(&x.to_string());
-            x.unwrap_or_else(|_| unreachable!("these are digits"))
-                .square_root()
+            let x = decimal(&x.to_string());
+            x.unwrap_or_else(|| unreachable!("these are digits")).sqrt()
         };
-        let least = root(low).sub(&gram.error).max(Integer::zero());
-        let most = root(high).add(&gram.error).add(&Integer::one());
-        let [least, most] = [least, most].map(|x| Rational::scaled(x, 2, -gram.beta));
+        let least = (root(low) - &gram.error).max(Integer::zero());
+        let most = root(high) + &gram.error + 1;
+        let [least, most] = [least, most].map(|x| scaled(x, 2, -gram.beta));
         Self { least, most }
     }
 
     /// Whether the bounds agree in nine digits, or are both zero.
     fn is_narrow(&self) -> bool {
-        let times = |x, factor: u64| Rationals.mul(x, &Integer::from(factor).into());
-        let least = times(&self.least, 1_000_000_001);
-        compare(&times(&self.most, 1_000_000_000), &least).is_le()
+        let times = |x: &Rational, factor: u64| x * Integer::from(factor);
+        times(&self.most, 1_000_000_000) <= times(&self.least, 1_000_000_001)
     }
 
     /// Whether the value is surely between two bounds, or surely not; nothing if neither is sure.
     pub fn is_within(&self, [least, most]: &[Rational; 2]) -> Option<bool> {
-        if compare(least, &self.least).is_le() && compare(&self.most, most).is_le() {
+        if *least <= self.least && self.most <= *most {
             return Some(true);
         }
-        let is_apart = compare(&self.most, least).is_lt() || compare(most, &self.least).is_lt();
+        let is_apart = self.most < *least || *most < self.least;
         is_apart.then_some(false)
     }
 
@@ -242,9 +233,9 @@ impl Enclosure {
 /// A fraction of which the denominator is a power of two, in doubles, rounded down or up by a few units at most.
 fn outward(x: &Rational, up: bool) -> f64 {
     let double = |x: &Integer| x.to_string().parse().unwrap_or(f64::INFINITY);
-    let (above, below): (f64, f64) = (double(x.numerator()), double(x.denominator()));
+    let (above, below): (f64, f64) = (double(x.numer()), double(x.denom()));
     match up {
-        _ if x.numerator().is_zero() => 0.0,
+        _ if x.numer().is_zero() => 0.0,
         false => (0..4).fold(above / below, |x, _| x.next_down()).max(0.0),
         true => (0..4).fold(above / below.min(f64::MAX), |x, _| x.next_up()),
     }
@@ -288,9 +279,7 @@ pub fn enclose(
     let gram = Gram {
         rows: gram(&rows, width * graph.nodes()),
         beta,
-        error: Integer::from(entries as u64)
-            .square_root()
-            .add(&Integer::one()),
+        error: Integer::from(entries as u64).sqrt() + 1,
     };
     let diagonal = gram.rows.iter().filter_map(|(_, row)| row.last());
     let (mut low, mut high) = (I256::ZERO, diagonal.fold(I256::ONE, |sum, &x| sum + x));

@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use viewcert::Model;
 use viewcert::at_cameras::{Centres, at_cameras};
 use viewcert::linalg::integer::{Integer, Integers};
-use viewcert::linalg::rational::Rational;
+use viewcert::linalg::rational::{Rational, scaled};
 use viewcert::watch::Watch;
 
 fn graph(nodes: u32, pairs: &[(u32, u32)]) -> Graph {
@@ -120,7 +120,7 @@ fn the_exact_jacobian() {
 }
 
 fn value(x: &Rational) -> f64 {
-    let [above, below] = [x.numerator(), x.denominator()].map(|x| x.to_string());
+    let [above, below] = [x.numer(), x.denom()].map(|x| x.to_string());
     above.parse::<f64>().unwrap() / below.parse::<f64>().unwrap()
 }
 
@@ -170,7 +170,7 @@ fn where_doubles_are_blind() {
             rationals([1, 0, 0]),
             rationals([3, 0, 0]),
         ];
-        points[1][1] = Rational::new(Integer::one(), Integer::from(1i64 << bend)).unwrap();
+        points[1][1] = Rational::new(1.into(), (1i64 << bend).into());
         let centres = Centres::of_points(Model::Calibrated, &points).unwrap();
         enclosed(&complete(3), &centres).unwrap()
     };
@@ -185,12 +185,12 @@ fn where_doubles_are_blind() {
 /// Bounds are rounded outward: 1/2^60 less and more than 1/3 is not seen, and a double is between both.
 #[test]
 fn decimals() {
-    let third: Rational = Rational::scaled(Integer::from((1i64 << 62) / 3), 2, -62);
+    let third = scaled(Integer::from((1i64 << 62) / 3), 2, -62);
     let found = |least: Rational, most: Rational| Enclosure { least, most }.decimals();
     let [least, most] = found(third.clone(), third).map(|x| x.parse::<f64>().unwrap());
     assert!(least < 1.0 / 3.0 && 1.0 / 3.0 < most && most - least < 1e-15);
     assert_eq!(Enclosure::zero().decimals(), ["0", "0"]);
-    let tiny = Rational::scaled(Integer::one(), 2, -2000);
+    let tiny = scaled(1.into(), 2, -2000);
     let [least, most] = found(tiny.clone(), tiny).map(|x| x.parse::<f64>().unwrap());
     assert!(least == 0.0 && most > 0.0);
 }

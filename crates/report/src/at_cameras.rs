@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use std::io::{self, Write};
 use viewcert::at_cameras::{Centres, Here, Special};
 use viewcert::certificate::hex;
-use viewcert::decide::{Component, Verdict};
+use viewcert::decide::Verdict;
 use viewcert::geometry::model::Model;
 use viewcert::graph::{Graph, UnionFind};
 use viewcert_formats::NamedGraph;

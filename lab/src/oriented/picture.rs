@@ -8,7 +8,7 @@
 use super::{Oriented, Scene, Standing};
 use crate::svg::{COLOURS, Svg};
 use viewcert::geometry::camera::Camera;
-use viewcert::linalg::integer::{Integer, Signed, decimal};
+use viewcert::linalg::integer::{Integer, Signed};
 use viewcert_formats::NamedGraph;
 
 type Vector = [f64; 3];
@@ -304,6 +304,7 @@ fn draw(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use viewcert::linalg::integer::decimal;
 
     #[test]
     fn linear_algebra_by_hand() {

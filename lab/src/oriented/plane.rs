@@ -4,7 +4,7 @@
 //! a positive combination of which is zero. Numbers are rounded before either is looked for; whether
 //! what is found is right is for others to see.
 
-use viewcert::linalg::integer::{Euclid, Integer, One, Signed, Zero, decimal};
+use viewcert::linalg::integer::{Euclid, Integer, One, Signed, ToPrimitive};
 
 /// One of the two, by Gordan's theorem.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -138,6 +138,7 @@ fn is_zero_inside(vectors: &[[i128; 4]; 5]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use viewcert::linalg::integer::{Zero, decimal};
 
     fn vectors(all: &[[i64; 4]]) -> Vec<[Integer; 4]> {
         all.iter().map(|v| v.map(Integer::from)).collect()
