@@ -20,7 +20,7 @@ use std::fmt::Display;
 use std::io::{self, BufWriter, Write};
 use viewcert::geometry::draw::{cameras_mod, cameras_rational, centres_mod};
 use viewcert::geometry::{jacobian, plane_flow};
-use viewcert::linalg::integer::{Integer, Integers};
+use viewcert::linalg::integer::{Integers, content};
 use viewcert::linalg::prime::PrimeField;
 
 fn main() -> Result<()> {
@@ -42,9 +42,9 @@ fn main() -> Result<()> {
             let cameras = cameras_rational(graph.nodes(), 9, 4, key)?.values;
             let mut rows = jacobian::jacobian(&Integers, graph, &cameras);
             for row in &mut rows {
-                let content = Integer::content(row.iter().map(|(_, x)| x));
+                let content = content(row.iter().map(|(_, x)| x));
                 for (_, x) in row {
-                    *x = x.div_exact(&content);
+                    *x /= &content;
                 }
             }
             write(out, &rows, cols, 0, Clone::clone)?;

@@ -12,7 +12,6 @@ use std::sync::Arc;
 use viewcert::Model;
 use viewcert::at_cameras::{Centres, Here, HereError, Special, at_cameras, open_focal_lengths};
 use viewcert::linalg::integer::{Integer, Zero};
-use viewcert::linalg::integer::{Integer, Zero};
 use viewcert::linalg::rational::{Rational, parse};
 use viewcert_advice::Advice;
 use viewcert_formats::{NamedGraph, cameras_beside, centre_error};

@@ -388,7 +388,7 @@ fn step(
     let residual = residual.collect::<Option<Vec<u64>>>()?;
     for (value, row) in values.iter_mut().zip(inverse) {
         let digit = field.negate(field.dot(0, row, &residual));
-        value += *modulus * field.to_u64(digit);
+        *value += modulus * field.to_u64(digit);
     }
     Some(())
 }
