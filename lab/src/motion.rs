@@ -240,7 +240,7 @@ mod tests {
 
     fn rational(n: &str, d: &str) -> Rational {
         let integer = |text: &str| decimal(text).unwrap();
-        Rational::new(integer(n), integer(d)).unwrap()
+        Rational::new(integer(n), integer(d))
     }
 
     #[test]

@@ -1,5 +1,6 @@
 use super::*;
 use viewcert::graph::graph6;
+use viewcert::linalg::integer::{Signed, Zero};
 use viewcert::solutions::count;
 
 /// What is found for a graph, and the scenes of some draws.
