@@ -14,7 +14,7 @@ use viewcert::decide;
 use viewcert::watch::Watch;
 use viewcert_audit::claims::{Bad, Claim, Ruling, of_cameras, of_graphs};
 use viewcert_audit::enclosure::{CENTRES_ALONE, enclose};
-use viewcert_audit::{Beside, Options, TOLERANCE};
+use viewcert_audit::{Beside, TOLERANCE};
 use viewcert_formats::{NamedGraph, cameras_beside, whole};
 use viewcert_report::audit::{Found, write_audit, write_ruling};
 use viewcert_report::json::write_failed;
@@ -85,12 +85,12 @@ pub(super) fn run(session: &Session, arguments: &AuditArguments) -> Result<u8> {
         let about = arguments.float.as_deref().unwrap_or(path);
         return input::recorded(arguments.json, about, done);
     }
-    let (tolerance, seed) = (arguments.tolerance, arguments.seed);
+    let drawn = (arguments.seed, arguments.tolerance);
     let each = |out: &mut _, input: &NamedGraph, _| {
         let (name, start) = (|| input.name.clone(), Instant::now());
         let exact = decide::decide(&input.graph, &arguments.exact(session)).with_context(name)?;
-        let (time, options) = (start.elapsed(), Options { tolerance, seed });
-        let float = Beside::new(&input.graph, &exact, &options, arguments.draws);
+        let time = start.elapsed();
+        let float = Beside::new(&input.graph, &exact, drawn, arguments.draws);
         let float = float.with_context(name)?;
         write_audit(out, arguments.json, (input, &exact, time), &float)?;
         Ok(if float.agrees { GOOD } else { NOT })

@@ -12,9 +12,9 @@ use anyhow::Context;
 use pyo3::prelude::*;
 use std::sync::Arc;
 use std::time::Instant;
+use viewcert_audit::Beside;
 use viewcert_audit::claims::{Bad, Claim, of_cameras, of_graphs};
 use viewcert_audit::enclosure::{CENTRES_ALONE, enclose, matrix};
-use viewcert_audit::{Beside, Options as FloatOptions};
 use viewcert_report::audit::{Found, write_audit, write_ruling};
 
 /// What one writer says, which takes whether it is for programs.
@@ -31,16 +31,10 @@ pub(crate) fn audit(
     draws: u64,
     seed: u64,
 ) -> PyResult<Said> {
-    if !(tolerance.is_finite() && tolerance > 0.0) {
-        return Err(InputError::new_err(format!(
-            "tolerance={tolerance}: take a positive number"
-        )));
-    }
-    let options = FloatOptions { tolerance, seed };
     let ((input, verdict), (.., time)) = (decided.answer(), decided.asked());
     let job = Job::new(py)?;
     job.answer(py, move || {
-        let float = Beside::new(&input.graph, &verdict, &options, draws)?;
+        let float = Beside::new(&input.graph, &verdict, (seed, tolerance), draws)?;
         both(|out, json| write_audit(out, json, (&input, &verdict, time), &float))
     })
 }
@@ -62,7 +56,6 @@ impl Claims {
     }
 
     /// Rules on a row: about this graph, or the one that it names.
-    #[pyo3(signature = (row, wanted, *, graph=None))]
     fn rule(
         &self,
         py: Python<'_>,

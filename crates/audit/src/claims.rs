@@ -37,6 +37,8 @@ const INFINITE: usize = usize::MAX;
 const FINITE: usize = INFINITE - 1;
 /// What claims nothing.
 const ANY: Range = [0, INFINITE];
+/// What of a claim is not so, and what is open.
+type Held = (Vec<String>, Option<String>);
 /// The numbers that are claimed: the first two are of solutions, in words and in digits.
 const COUNTS: &str = "verdict solutions components rank rank_required";
 
@@ -100,10 +102,8 @@ fn read(text: &str, known: &str) -> Result<Vec<Result<Claim, Bad>>, Bad> {
         Err(open) => return bad(open.line, "a quoted cell does not end on its line"),
     };
     let [(number, head), rows @ ..] = &*lines else {
-        return bad(
-            1,
-            "the table is empty: a head with the names of the columns is needed",
-        );
+        let empty = "the table is empty: a head with the names of the columns is needed";
+        return bad(1, empty);
     };
     let head: Vec<String> = head.iter().map(|cell| cell.trim().to_lowercase()).collect();
     let is = |column: &str, names: &str| {
@@ -148,13 +148,10 @@ fn unguarded((column, cell): (String, &str)) -> (String, String) {
 fn range(column: &str, text: &str) -> Result<Range, &'static str> {
     let number = |text: &str| text.parse().ok().filter(|&number| number < FINITE);
     let (least, most) = text.split_once('-').unwrap_or((text, text));
+    let one = number(text).map(|number| [number; 2]);
     let (range, what) = match column {
         "solutions" => {
-            let most = if most.is_empty() {
-                Some(FINITE)
-            } else {
-                number(most)
-            };
+            let most = number(most).or(most.is_empty().then_some(FINITE));
             let range = number(least).zip(most).map(Into::into);
             (range, "a number, like 2 or 2-6 or 2-")
         }
@@ -171,10 +168,7 @@ fn range(column: &str, text: &str) -> Result<Range, &'static str> {
             let words = "one of solvable, finite-solvable, determined, these with not-, undecided";
             (range, words)
         }
-        _ => (
-            number(text).map(|number| [number; 2]),
-            "a number of things: 0, 1, 2, ...",
-        ),
+        _ => (one, "a number of things: 0, 1, 2, ..."),
     };
     range.filter(|[least, most]| least <= most).ok_or(what)
 }
@@ -192,38 +186,30 @@ fn decimal(text: &str) -> Option<[Rational; 2]> {
 
 impl Claim {
     fn new(line: usize, cells: BTreeMap<String, String>) -> Result<Self, Bad> {
-        let mut claim = Self {
-            line,
-            cells,
-            ..Self::default()
-        };
+        let mut claim = Self::default();
+        (claim.line, claim.cells) = (line, cells);
         claim.ensure_alone()?;
-        let is_not = |column: &str, text: &str, what| {
-            let problem = format!("{column}: {text:?} is not {what}");
-            Bad { line, problem }
-        };
-        for (column, text) in &claim.cells.clone() {
-            let column = column.as_str();
+        let (mut model, mut said, mut sigma) = (Model::default(), Vec::new(), None);
+        for (column, text) in &claim.cells {
+            let is_not = |what| claim.bad(&format!("{column}: {text:?} is not {what}"));
             let is = |what| column == what || what == "components" && column.starts_with(what);
             let at = COUNTS.split(' ').position(is);
             if at.is_some() || column == "nodes" || column == "edges" {
-                let claimed = range(column, text).map_err(|what| is_not(column, text, what))?;
-                let words = if at == Some(0) {
-                    text.clone()
-                } else {
-                    format!("{column} {text}")
-                };
+                let claimed = range(column, text).map_err(is_not)?;
+                let words = format!("{column} {text}");
+                let words = words.trim_start_matches("verdict ").to_owned();
                 let at = at.filter(|_| claimed != ANY);
-                claim.said.extend(at.map(|at| (at, words, claimed)));
+                said.extend(at.map(|at| (at, words, claimed)));
             } else if column == "model" {
                 let models = "one of projective, calibrated and affine";
-                claim.model = text.parse().map_err(|_| is_not(column, text, models))?;
+                model = text.parse().map_err(|_| is_not(models))?;
             } else if column == "sigma" {
-                let none = || is_not(column, text, "a decimal from 0 on");
-                claim.sigma = Some(decimal(text).ok_or_else(none)?);
+                let claimed = decimal(text);
+                sigma = Some(claimed.ok_or_else(|| is_not("a decimal from 0 on"))?);
             }
         }
-        claim.said.sort_by_key(|(at, ..)| *at);
+        said.sort_by_key(|(at, ..)| *at);
+        (claim.model, claim.said, claim.sigma) = (model, said, sigma);
         if claim.sigma.is_some() && matrix(claim.model, 0).is_none() {
             return Err(claim.bad("sigma: no matrix of the affine model is enclosed; claim verdict, rank or components"));
         }
@@ -237,18 +223,15 @@ impl Claim {
     /// Ensures that the graph had an answer, which rests on nothing that its name does not say.
     fn ensure_alone(&self) -> Result<(), Bad> {
         if let Some(error) = self.cell("error") {
-            return Err(self.bad(&format!(
-                "nothing is claimed: the graph had no answer: {error}"
-            )));
+            let why = format!("nothing is claimed: the graph had no answer: {error}");
+            return Err(self.bad(&why));
         }
         let given = serde_json::from_str(self.cell("options").unwrap_or("{}"));
         let none = |_| self.bad("options: this is no JSON object of strings");
         let mut given: BTreeMap<String, String> = given.map_err(none)?;
         given.retain(|name, _| !DECIDED.contains(&&**name));
-        let said = given
-            .iter()
-            .map(|(name, value)| format!(" --{name} {value}"));
-        let said = said.collect::<String>();
+        let option = |(name, value)| format!(" --{name} {value}");
+        let said: String = given.iter().map(option).collect();
         let why = match given.contains_key("given") {
             true => "it rests on more than pairs, without which it is another claim",
             false if given.is_empty() => return Ok(()),
@@ -308,7 +291,7 @@ impl Claim {
             // Of what stands on other lines, nothing matters here.
             let mut graphs = read_graphs(Path::new(file), &plain).filter_map(Result::ok);
             let found = graphs.find(|graph| graph.name == text);
-            return found.ok_or_else(|| unknown("no graph on that line"));
+            return found.ok_or(unknown("no graph on that line"));
         }
         let why = "no such file; paths are those from the folder in which the program runs";
         Err(unknown(why))
@@ -319,21 +302,12 @@ impl Claim {
     ///
     /// # Errors
     /// No verdict.
-    pub fn ruled(
-        &self,
-        input: &NamedGraph,
-        options: &Options,
-    ) -> Result<(Ruling, Verdict), VerdictError> {
+    pub fn ruled(&self, input: &NamedGraph, options: &Options) -> Ruled {
         let options = options.clone().model(self.model);
         let mut verdict = decide(&input.graph, &options)?;
-        let (nodes, edges) = (input.graph.nodes(), input.graph.edges().len());
-        let hash = hex(&verdict.sha256);
-        let found = [
-            ("nodes", nodes.to_string()),
-            ("edges", edges.to_string()),
-            ("sha256", hash),
-        ];
-        for (column, found) in found {
+        let counts = [input.graph.nodes(), input.graph.edges().len()];
+        let ([nodes, edges], hash) = (counts.map(|n| n.to_string()), hex(&verdict.sha256));
+        for (column, found) in [("nodes", nodes), ("edges", edges), ("sha256", hash)] {
             let claimed = self.cell(column).unwrap_or(&found).to_lowercase();
             if claimed != found {
                 let why = format!("the row has {column} {claimed}, the graph {found}");
@@ -383,11 +357,10 @@ impl Claim {
         watch: &Watch,
     ) -> Result<Option<(Ruling, Option<Enclosure>)>, VerdictError> {
         // Where the equations are linear, a full rank leaves no other cameras at all.
+        let is_only = here.model.is_linear() || here.is_planar;
         let (solutions, value) = match here.is_determined() {
             false => ([INFINITE; 2], "not-determined"),
-            true if here.model.is_linear() || here.is_planar => {
-                ([1, 1], "determined, with no other cameras")
-            }
+            true if is_only => ([1, 1], "determined, with no other cameras"),
             true => ([1, FINITE], "determined"),
         };
         let open =
@@ -404,27 +377,19 @@ impl Claim {
             [_, most] if most == "0" => most,
             [least, most] => format!("between {least} and {most}"),
         };
+        let part = format!("sigma is {between}, which holds part of what is claimed");
         match sigma.is_within(claimed) {
             Some(true) => {}
             Some(false) => wrong.push(format!("sigma is {between}")),
-            None => {
-                open = Some(format!(
-                    "sigma is {between}, which holds part of what is claimed"
-                ))
-            }
+            None => open = Some(part),
         }
         Ok(Some((Ruling::new(&wrong, open), Some(sigma))))
     }
 
     /// What is not so of what is claimed, and what is open: by the number of solutions, the words for it in both columns and
     /// where it is open, and the other counts.
-    fn held(
-        &self,
-        solutions: Range,
-        [value, count, open]: [&str; 3],
-        counts: [usize; 3],
-    ) -> (Vec<String>, Option<String>) {
-        let (mut wrong, mut left) = (Vec::new(), None);
+    fn held(&self, solutions: Range, words: [&str; 3], counts: [usize; 3]) -> Held {
+        let ((mut wrong, mut left), [value, count, open]) = (Held::default(), words);
         for (at, said, [least, most]) in &self.said {
             let (is, words) = match at {
                 0 => (solutions, value.to_owned()),
@@ -440,6 +405,9 @@ impl Claim {
         (wrong, left)
     }
 }
+
+/// A ruling, with the verdict that it rests on.
+pub type Ruled = Result<(Ruling, Verdict), VerdictError>;
 
 /// What the exact decision says about a claim.
 #[derive(Clone, Debug, PartialEq, Eq)]

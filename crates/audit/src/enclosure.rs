@@ -100,77 +100,64 @@ fn bearing(graph: &Graph, places: &[[Integer; 4]]) -> (SparseRows<I256>, i64) {
     (rows, beta)
 }
 
-/// M^T M of a rounded matrix M.
-struct Gram {
-    /// Of each row of the lower triangle the column of the first entry that is not zero, and all from there on.
-    rows: Vec<(usize, Vec<I256>)>,
-    /// M is 2^beta times the matrix that is meant, up to rounding.
-    beta: i64,
-    /// By how much, in units of 2^-beta, rounding may have moved a singular value.
-    error: Integer,
-}
-
-impl Gram {
-    /// Eliminates H = M^T M - shift: C S C^T + E with a triangle C of integers and signs S. Nothing if numbers grow too
-    /// much. O(N^3) products of integers, less what stands before the first entries of rows.
-    fn eliminated(&self, shift: I256, task: &Task<'_>) -> Result<Option<Inertia>, Stopped> {
-        let (mut negative, mut logarithm) = (0, 0.0);
-        // C, and C S.
-        let mut factors: Vec<Vec<[I256; 2]>> = Vec::with_capacity(self.rows.len());
-        let mut remainders = vec![I256::ZERO; self.rows.len()];
-        let mut signs = Vec::new();
-        let work = task.begin(self.rows.len() as u64);
-        for (i, (from, given)) in self.rows.iter().enumerate() {
-            work.done(1)?;
-            let mut own = Vec::with_capacity(given.len());
-            for (j, &entry) in (*from..).zip(given) {
-                let (other, first) = (factors.get(j).unwrap_or(&own), self.rows[j].0);
-                let both = first.max(*from).min(j);
-                let pairs = own[both - from..]
-                    .iter()
-                    .zip(&other[both.saturating_sub(first)..]);
-                let left = entry - pairs.fold(I256::ZERO, |sum, (x, y)| sum + x[0] * y[1]);
-                let (factor, remainder) = if j < i {
-                    let divisor = other[j - first][1];
-                    (left / divisor, left % divisor)
-                } else {
-                    let left = left - shift;
-                    let root = root(left.abs());
-                    signs.push(if left < I256::ZERO {
-                        -I256::ONE
-                    } else {
-                        I256::ONE
-                    });
-                    negative += usize::from(left < I256::ZERO);
-                    logarithm += 2.0 * root.as_f64().ln();
-                    (root, left.abs() - root * root)
-                };
-                if factor.abs() >= I256::ONE << FACTOR_BITS {
-                    return Ok(None);
-                }
-                remainders[i] += remainder.abs();
-                if j < i {
-                    remainders[j] += remainder.abs();
-                }
-                own.push([factor, factor * signs[j]]);
+/// Eliminates H = A - shift, of whose lower triangle each row has the column of its first entry that is not zero and all
+/// from there on: C S C^T + E with a triangle C of integers and signs S. O(N^3) products of integers, less what stands before
+/// the first entries of rows.
+///
+/// H - E has so many negative eigenvalues, and no zero; the largest sum of remainders in a row bounds the norm of E; the
+/// logarithm of the determinant only proposes. Nothing if numbers grow too much.
+fn eliminated(
+    rows: &[(usize, Vec<I256>)],
+    shift: I256,
+    task: &Task<'_>,
+) -> Result<Option<(usize, I256, f64)>, Stopped> {
+    let (mut negative, mut logarithm) = (0, 0.0);
+    // C, and C S.
+    let mut factors: Vec<Vec<[I256; 2]>> = Vec::with_capacity(rows.len());
+    let mut remainders = vec![I256::ZERO; rows.len()];
+    let mut signs = Vec::new();
+    let work = task.begin(rows.len() as u64);
+    for (i, (from, given)) in rows.iter().enumerate() {
+        work.done(1)?;
+        let mut own = Vec::with_capacity(given.len());
+        for (j, &entry) in (*from..).zip(given) {
+            let (other, first) = (factors.get(j).unwrap_or(&own), rows[j].0);
+            let both = first.max(*from).min(j);
+            let shared = &other[both.saturating_sub(first)..];
+            let pairs = own[both - from..].iter().zip(shared);
+            let left = entry - pairs.fold(I256::ZERO, |sum, (x, y)| sum + x[0] * y[1]);
+            let (factor, remainder) = if j < i {
+                let divisor = other[j - first][1];
+                (left / divisor, left % divisor)
+            } else {
+                let left = left - shift;
+                let root = root(left.abs());
+                let is_below = u8::from(left < I256::ZERO);
+                signs.push(I256::ONE - I256::from(2 * is_below));
+                negative += usize::from(is_below);
+                logarithm += 2.0 * root.as_f64().ln();
+                (root, left.abs() - root * root)
+            };
+            if factor.abs() >= I256::ONE << FACTOR_BITS {
+                return Ok(None);
             }
-            factors.push(own);
+            remainders[i] += remainder.abs();
+            if j < i {
+                remainders[j] += remainder.abs();
+            }
+            own.push([factor, factor * signs[j]]);
         }
-        let rho = remainders.into_iter().max().unwrap_or_default();
-        Ok(Some((negative, rho, logarithm)))
+        factors.push(own);
     }
+    let rho = remainders.into_iter().max().unwrap_or_default();
+    Ok(Some((negative, rho, logarithm)))
 }
-
-/// What an elimination finds: H - E has so many negative eigenvalues, and no zero; the largest sum of remainders in a row,
-/// which bounds the norm of E; the logarithm of the determinant, which only proposes.
-type Inertia = (usize, I256, f64);
 
 /// An integer near a square root, 1 at least: what it misses is a remainder.
 fn root(square: I256) -> I256 {
     let near = square.as_f64().sqrt().as_i256().max(I256::ONE);
-    (0..3).fold(near, |root, _| {
-        ((root + square / root) / I256::from(2)).max(I256::ONE)
-    })
+    let step = |root: I256, _| ((root + square / root) / 2).max(I256::ONE);
+    (0..3).fold(near, step)
 }
 
 /// Two fractions between which a singular value lies.
@@ -190,15 +177,15 @@ impl Enclosure {
         Self { least, most }
     }
 
-    /// Of the squares of a rounded matrix.
-    fn new(gram: &Gram, low: I256, high: I256) -> Self {
+    /// By bounds of the square of that of a matrix, which is 2^beta times the one that is meant up to so much.
+    fn new([low, high]: [I256; 2], beta: i64, error: &Integer) -> Self {
         let root = |x: I256| {
             let x = decimal(&x.to_string());
             x.unwrap_or_else(|| unreachable!("these are digits")).sqrt()
         };
-        let least = (root(low) - &gram.error).max(Integer::zero());
-        let most = root(high) + &gram.error + 1;
-        let [least, most] = [least, most].map(|x| scaled(x, 2, -gram.beta));
+        let least = (root(low) - error).max(Integer::zero());
+        let most = root(high) + error + 1;
+        let [least, most] = [least, most].map(|x| scaled(x, 2, -beta));
         Self { least, most }
     }
 
@@ -210,34 +197,29 @@ impl Enclosure {
 
     /// Whether the value is surely between two bounds, or surely not; nothing if neither is sure.
     pub fn is_within(&self, [least, most]: &[Rational; 2]) -> Option<bool> {
-        if *least <= self.least && self.most <= *most {
-            return Some(true);
-        }
+        let is_inside = *least <= self.least && self.most <= *most;
         let is_apart = self.most < *least || *most < self.least;
-        is_apart.then_some(false)
+        (is_inside || is_apart).then_some(is_inside)
     }
 
     /// Both bounds as decimals, rounded away from each other.
     pub fn decimals(&self) -> [String; 2] {
-        let [least, most] = [outward(&self.least, false), outward(&self.most, true)];
-        [least, most].map(|x| {
-            if x == 0.0 {
-                "0".into()
-            } else {
-                format!("{x:e}")
-            }
-        })
+        [outward(&self.least, false), outward(&self.most, true)]
     }
 }
 
 /// A fraction of which the denominator is a power of two, in doubles, rounded down or up by a few units at most.
-fn outward(x: &Rational, up: bool) -> f64 {
+fn outward(x: &Rational, up: bool) -> String {
     let double = |x: &Integer| x.to_string().parse().unwrap_or(f64::INFINITY);
     let (above, below): (f64, f64) = (double(x.numer()), double(x.denom()));
-    match up {
+    let x = match up {
         _ if x.numer().is_zero() => 0.0,
         false => (0..4).fold(above / below, |x, _| x.next_down()).max(0.0),
         true => (0..4).fold(above / below.min(f64::MAX), |x, _| x.next_up()),
+    };
+    match x {
+        0.0 => "0".to_owned(),
+        _ => format!("{x:e}"),
     }
 }
 
@@ -276,19 +258,17 @@ pub fn enclose(
     };
     let entries: usize = rows.iter().map(Vec::len).sum();
     reordered(&mut rows, width, &envelope_order(graph));
-    let gram = Gram {
-        rows: gram(&rows, width * graph.nodes()),
-        beta,
-        error: Integer::from(entries as u64).sqrt() + 1,
-    };
-    let diagonal = gram.rows.iter().filter_map(|(_, row)| row.last());
+    let rows = gram(&rows, width * graph.nodes());
+    // By how much rounding may have moved a singular value.
+    let error = Integer::from(entries as u64).sqrt() + 1;
+    let diagonal = rows.iter().filter_map(|(_, row)| row.last());
     let (mut low, mut high) = (I256::ZERO, diagonal.fold(I256::ONE, |sum, &x| sum + x));
     // Below the value det(M^T M - s) / (-s)^(place - 1), up to rounding a polynomial with real roots, falls and is convex:
     // the secant through two points there ends between the second one and the value.
     let mut below: Vec<[f64; 2]> = Vec::new();
     let (mut rho, mut aside) = (0.0f64, 1.0);
     for test in 0..TESTS {
-        let found = Enclosure::new(&gram, low, high);
+        let found = Enclosure::new([low, high], beta, &error);
         let [from, to] = [low, high].map(I256::as_f64);
         let is_settled = claimed.is_none_or(|claimed| found.is_within(claimed).is_some());
         if found.is_narrow() && is_settled || to - from <= 8.0 * rho {
@@ -305,28 +285,23 @@ pub fn enclose(
             }
             _ => f64::NAN,
         };
-        let is_between = from < proposed && proposed < to;
-        let at = aside
-            * if is_between {
-                proposed
-            } else {
-                from.midpoint(to)
-            };
+        let inside = Some(proposed).filter(|at| from < *at && *at < to);
+        let at = aside * inside.unwrap_or(from.midpoint(to));
         let task = watch.task(Step::Elimination, graph.nodes());
         let square = at.as_i256();
-        let Some((negative, error, logarithm)) = gram.eliminated(square, &task)? else {
+        let Some((negative, left, logarithm)) = eliminated(&rows, square, &task)? else {
             // Numbers grow where a pivot happens to be small.
             aside *= 1.001;
             continue;
         };
-        (rho, aside) = (error.as_f64(), 1.0);
+        (rho, aside) = (left.as_f64(), 1.0);
         if negative >= place {
-            high = high.min(square + error);
+            high = high.min(square + left);
         } else {
-            low = low.max(square - error);
+            low = low.max(square - left);
             below.push([at, logarithm - (place - 1) as f64 * at.ln()]);
             below.sort_by(|a, b| a[0].total_cmp(&b[0]));
         }
     }
-    Ok(Some(Enclosure::new(&gram, low, high)))
+    Ok(Some(Enclosure::new([low, high], beta, &error)))
 }

@@ -35,36 +35,11 @@ const NORM: f64 = 10.0;
 /// The bound on a camera's part of the null space, as in the published code.
 const VANISHES: f64 = 1e-4;
 
-/// What to compute.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Options {
-    /// Bound on the smallest eigenvalue of J^T J above which G counts as finite solvable.
-    pub tolerance: f64,
-    /// The seed of the cameras.
-    pub seed: u64,
-}
-
-/// The outcome at one draw of cameras.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Outcome {
-    /// Whether floating point says finite solvable; nothing where a value is not a number, or infinite.
-    pub is_solvable: Option<bool>,
-    /// The smallest singular value of J.
-    pub smallest: f64,
-    /// Its square, the smallest eigenvalue of J^T J.
-    pub eigenvalue: f64,
-}
-
-impl Outcome {
-    fn new(smallest: f64, tolerance: f64) -> Self {
-        let eigenvalue = smallest * smallest;
-        let is_solvable = eigenvalue.is_finite().then_some(eigenvalue > tolerance);
-        Self {
-            is_solvable,
-            smallest,
-            eigenvalue,
-        }
-    }
+/// Whether floating point says finite solvable, by the smallest singular value of J; nothing where that is not a number, or its
+/// square is infinite.
+fn is_solvable(smallest: f64, tolerance: f64) -> Option<bool> {
+    let eigenvalue = smallest * smallest;
+    eigenvalue.is_finite().then_some(eigenvalue > tolerance)
 }
 
 /// Why floating point has no answer.
@@ -132,22 +107,22 @@ pub fn augmented(graph: &Graph, seed: u64, draw: u64) -> SparseRows<f64> {
     rows
 }
 
-/// The verdict at one draw.
+/// The smallest singular value of J at one draw.
 ///
 /// # Errors
 /// See [`AuditError`].
-pub fn decide(graph: &Graph, options: &Options, draw: u64) -> Result<Outcome, AuditError> {
+pub fn smallest(graph: &Graph, seed: u64, draw: u64) -> Result<f64, AuditError> {
     if graph.edges().is_empty() {
         return Err(AuditError::NoPairs);
     }
-    let mut j = augmented(graph, options.seed, draw);
+    let mut j = augmented(graph, seed, draw);
     reordered(&mut j, 12, &envelope_order(graph));
     let (values, _) = Inverse::new(&j, 12 * graph.nodes())?.smallest(1, 1e-10)?;
-    Ok(Outcome::new(values[0], options.tolerance))
+    Ok(values[0])
 }
 
 /// Components by the rows of a null space that vanish (the paper's section 4.2): for every edge the number of its
-/// component, counted in the order in which they were found.
+/// component, counted in the order in which they were found. There is an edge.
 ///
 /// The frame is put on an edge without component, first on the usual one. The cameras whose twelve rows of the null space
 /// vanish (sums of absolute values, then the norm over the vectors, below 1e-4) are in its component, with all edges
@@ -155,28 +130,21 @@ pub fn decide(graph: &Graph, options: &Options, draw: u64) -> Result<Outcome, Au
 ///
 /// # Errors
 /// See [`AuditError`].
-pub fn components(graph: &Graph, options: &Options, draw: u64) -> Result<Vec<usize>, AuditError> {
+fn components(graph: &Graph, seed: u64, tolerance: f64) -> Result<Vec<usize>, AuditError> {
     let edges = graph.edges();
-    if edges.is_empty() {
-        return Err(AuditError::NoPairs);
-    }
-    let (place, rows) = (envelope_order(graph), drawn(graph, options.seed, draw));
+    let (place, rows) = (envelope_order(graph), drawn(graph, seed, 0));
     let mut component = vec![None; edges.len()];
     let mut frame = reference(graph);
     for number in 0.. {
         let mut j = rows.clone();
         j.extend(jacobian::gauge(&Doubles, graph, frame));
         reordered(&mut j, 12, &place);
-        let null = Inverse::new(&j, 12 * graph.nodes())?.null_space(options.tolerance)?;
+        let null = Inverse::new(&j, 12 * graph.nodes())?.null_space(tolerance)?;
         let vanishes = |v: u32| {
             let rows = 12 * place[v as usize]..;
-            let sum = |x: &Vec<f64>| x[rows.clone()][..12].iter().map(|x| x.abs()).sum::<f64>();
-            null.iter()
-                .map(sum)
-                .map(|sum| sum * sum)
-                .sum::<f64>()
-                .sqrt()
-                < VANISHES
+            let part = |x: &Vec<f64>| x[rows.clone()][..12].iter().map(|x| x.abs()).sum::<f64>();
+            let squares: f64 = null.iter().map(part).map(|part| part * part).sum();
+            squares.sqrt() < VANISHES
         };
         for (e, &(i, j)) in edges.iter().enumerate() {
             if component[e].is_none() && (e == frame || vanishes(i) && vanishes(j)) {
@@ -194,13 +162,15 @@ pub fn components(graph: &Graph, options: &Options, draw: u64) -> Result<Vec<usi
 /// What floating point found of a graph, held against its verdict.
 #[derive(Clone, Debug)]
 pub struct Beside {
-    /// The float side at the first draw.
-    pub outcome: Outcome,
+    /// Whether it says finite solvable at the first draw; nothing where a value is not a number.
+    pub is_solvable: Option<bool>,
+    /// The smallest singular value of J there.
+    pub smallest: f64,
     /// Components of the float side; `None` if it is undecided.
     pub components: Option<usize>,
     /// Its time, components included.
     pub time: Duration,
-    /// That of the options.
+    /// The smallest eigenvalue of J^T J above which it says finite solvable.
     pub tolerance: f64,
     /// How many draws there were.
     pub draws: usize,
@@ -218,14 +188,15 @@ impl Beside {
     pub fn new(
         graph: &Graph,
         exact: &Verdict,
-        options: &Options,
+        (seed, tolerance): (u64, f64),
         draws: u64,
     ) -> Result<Self, AuditError> {
         let start = Instant::now();
-        let outcome = decide(graph, options, 0)?;
-        let components = match outcome.is_solvable {
+        let first = smallest(graph, seed, 0)?;
+        let says = is_solvable(first, tolerance);
+        let components = match says {
             Some(true) => Some(1),
-            Some(false) => components(graph, options, 0)?
+            Some(false) => components(graph, seed, tolerance)?
                 .into_iter()
                 .max()
                 .map(|last| last + 1),
@@ -233,18 +204,18 @@ impl Beside {
         };
         let time = start.elapsed();
         let more = (1..draws).into_par_iter();
-        let more = more.map(|draw| decide(graph, options, draw));
-        let mut outcomes = more.collect::<Result<Vec<_>, AuditError>>()?;
-        outcomes.push(outcome);
+        let more = more.map(|draw| Ok(is_solvable(smallest(graph, seed, draw)?, tolerance)));
+        let mut verdicts = more.collect::<Result<Vec<_>, AuditError>>()?;
+        verdicts.push(says);
         let right = Some(exact.value != Value::NotFiniteSolvable);
-        let is_wrong = |outcome: &&Outcome| outcome.is_solvable != right;
-        let misjudged = outcomes.iter().filter(is_wrong).count();
+        let misjudged = verdicts.iter().filter(|&&says| says != right).count();
         Ok(Self {
-            outcome,
+            is_solvable: says,
+            smallest: first,
             components,
             time,
-            tolerance: options.tolerance,
-            draws: outcomes.len(),
+            tolerance,
+            draws: verdicts.len(),
             misjudged,
             agrees: misjudged == 0 && components == Some(exact.components.len()),
         })

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use std::collections::VecDeque;
 use std::ops::{AddAssign, Mul};
 use viewcert::geometry::jacobian::SparseRows;
-use viewcert::graph::Graph;
+use viewcert::graph::{Adjacency, Graph};
 use viewcert::linalg::Ring;
 
 /// A matrix by its columns.
@@ -59,14 +59,11 @@ impl Ring for Doubles {
 
 /// The scalar product of two vectors, in eight sums side by side.
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let (a, b) = (a.chunks_exact(8), b.chunks_exact(8));
-    let rest = a.remainder().iter().zip(b.remainder());
-    let rest: f64 = rest.map(|(x, y)| x * y).sum();
+    let ((a, left), (b, right)) = (a.as_chunks::<8>(), b.as_chunks::<8>());
+    let rest: f64 = left.iter().zip(right).map(|(x, y)| x * y).sum();
     let mut sums = [0.0; 8];
-    for (a, b) in a.zip(b) {
-        for k in 0..8 {
-            sums[k] += a[k] * b[k];
-        }
+    for (a, b) in a.iter().zip(b) {
+        (0..8).for_each(|k| sums[k] += a[k] * b[k]);
     }
     sums.iter().sum::<f64>() + rest
 }
@@ -116,24 +113,19 @@ pub(crate) fn singular(
 
 /// The place of each node in an order in which neighbours stand near each other (Cuthill and McKee 1969, reversed).
 pub(crate) fn envelope_order(graph: &Graph) -> Vec<usize> {
-    let n = graph.nodes();
-    let mut neighbours = vec![Vec::new(); n];
-    for &(i, j) in graph.edges() {
-        neighbours[i as usize].push(j as usize);
-        neighbours[j as usize].push(i as usize);
-    }
-    let degree: Vec<usize> = neighbours.iter().map(Vec::len).collect();
-    let mut by_degree: Vec<usize> = (0..n).collect();
-    by_degree.sort_by_key(|&v| degree[v]);
+    let (n, adjacency) = (graph.nodes(), Adjacency::new(graph));
+    let mut by_degree: Vec<u32> = (0..n as u32).collect();
+    by_degree.sort_by_key(|&v| adjacency.degree(v));
     let (mut place, mut seen, mut left) = (vec![0; n], vec![false; n], n);
     for start in by_degree {
         let mut queue = VecDeque::from([start]);
         while let Some(v) = queue.pop_front() {
-            if !std::mem::replace(&mut seen[v], true) {
+            if !std::mem::replace(&mut seen[v as usize], true) {
                 left -= 1;
-                place[v] = left;
-                neighbours[v].sort_by_key(|&w| degree[w]);
-                queue.extend(&neighbours[v]);
+                place[v as usize] = left;
+                let mut next = adjacency.neighbours(v).to_vec();
+                next.sort_by_key(|&w| adjacency.degree(w));
+                queue.extend(next);
             }
         }
     }
@@ -156,13 +148,12 @@ where
     let mut first: Vec<usize> = (0..columns).collect();
     for row in matrix {
         let least = row.iter().map(|&(at, _)| at).min().unwrap_or(0);
-        row.iter()
-            .for_each(|&(at, _)| first[at] = first[at].min(least));
+        for &(at, _) in row {
+            first[at] = first[at].min(least);
+        }
     }
-    let rows = first.into_iter().enumerate();
-    let mut rows: Vec<_> = rows
-        .map(|(i, from)| (from, vec![T::default(); i + 1 - from]))
-        .collect();
+    let empty = |(i, from)| (from, vec![T::default(); i + 1 - from]);
+    let mut rows: Vec<_> = first.into_iter().enumerate().map(empty).collect();
     for row in matrix {
         for &(i, x) in row {
             let (from, sums) = &mut rows[i];
@@ -214,9 +205,8 @@ impl<'a> Inverse<'a> {
             vectors.par_iter_mut().for_each(|x| self.factor.solve(x));
             orthonormal(&mut vectors);
             let image = |x: &Vec<f64>| {
-                let rows = self.matrix.iter();
-                rows.map(|row| row.iter().map(|&(k, y)| y * x[k]).sum())
-                    .collect()
+                let times = |row: &Vec<(usize, f64)>| row.iter().map(|&(k, y)| y * x[k]).sum();
+                self.matrix.iter().map(times).collect()
             };
             let (found, turned) = singular(vectors.iter().map(image).collect(), vectors)?;
             let mut changes = found.iter().zip(&values).take(count);

@@ -18,14 +18,9 @@ fn complete(nodes: u32) -> Graph {
     graph(nodes, &pairs)
 }
 
-const OPTIONS: Options = Options {
-    tolerance: TOLERANCE,
-    seed: 3,
-};
-
 #[test]
 fn what_is_not_a_number_is_no_verdict() {
-    let verdict = |x: f64| Outcome::new(x, 0.25).is_solvable;
+    let verdict = |x: f64| is_solvable(x, 0.25);
     for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         assert_eq!(verdict(value), None);
     }
@@ -51,21 +46,15 @@ fn draws_are_repeated() {
 fn verdicts_and_values() {
     let square = graph(4, &[(0, 1), (1, 2), (2, 3), (0, 3)]);
     for seed in 0..5 {
-        let options = Options { seed, ..OPTIONS };
         for (graph, verdict) in [(&complete(4), Some(true)), (&square, Some(false))] {
-            let found = decide(graph, &options, 0).unwrap();
-            assert_eq!(found.is_solvable, verdict);
+            let found = smallest(graph, seed, 0).unwrap();
+            assert_eq!(is_solvable(found, TOLERANCE), verdict);
             let values = all_values(&augmented(graph, seed, 0), 48);
-            assert!(
-                (found.smallest - values[0]).abs() < 1e-6 * values[1],
-                "{found:?}"
-            );
+            assert!((found - values[0]).abs() < 1e-6 * values[1], "{found}");
         }
     }
-    assert_eq!(
-        decide(&graph(2, &[]), &OPTIONS, 0),
-        Err(AuditError::NoPairs)
-    );
+    let none = smallest(&graph(2, &[]), 3, 0);
+    assert_eq!(none, Err(AuditError::NoPairs));
 }
 
 /// All singular values of a matrix, rising.
@@ -81,7 +70,7 @@ fn all_values(rows: &SparseRows<f64>, columns: usize) -> Vec<f64> {
 #[test]
 fn blocks_are_components() {
     let graph = graph(6, &[(0, 1), (0, 2), (1, 2), (2, 3), (2, 4), (3, 4), (4, 5)]);
-    let found = components(&graph, &OPTIONS, 0).unwrap();
+    let found = components(&graph, 3, TOLERANCE).unwrap();
     let [a, b, c, d, e, f, g] = found[..] else {
         panic!("seven edges")
     };

@@ -44,13 +44,13 @@ pub fn write_audit(
 ) -> io::Result<()> {
     let (value, strength) = (exact.value.name(), exact.value_claim().strength.name());
     let (parts, time) = (exact.components.len(), time.as_secs_f64());
-    let float_value = match float.outcome.is_solvable {
+    let float_value = match float.is_solvable {
         Some(true) => Value::FiniteSolvable.name(),
         Some(false) => Value::NotFiniteSolvable.name(),
         None => "undecided",
     };
     let float_time = float.time.as_secs_f64();
-    let (sigma, eigenvalue) = (float.outcome.smallest, float.outcome.eigenvalue);
+    let (sigma, eigenvalue) = (float.smallest, float.smallest.powi(2));
     let (misjudged, draws, tolerance) = (float.misjudged, float.draws, float.tolerance);
     let (margin, reason) = ((eigenvalue / tolerance).log10(), reason(float));
     if json {
@@ -77,15 +77,9 @@ pub fn write_audit(
         return write_line(out, "audit", Some(exact.seed), &line);
     }
     head(out, input)?;
-    let undecided = || "undecided".to_owned();
-    let float_parts = float
-        .components
-        .map_or_else(undecided, |count| count.to_string());
-    let margin = match margin.is_nan() {
-        true => "no margin".to_owned(),
-        false => format!("margin {margin:+.1} decades"),
-    };
-    let result = match (float.agrees, float.outcome.is_solvable) {
+    let float_parts = float.components.map(|count| count.to_string());
+    let float_parts = float_parts.unwrap_or_else(|| "undecided".to_owned());
+    let result = match (float.agrees, float.is_solvable) {
         (true, _) => "agree",
         (false, None) => "undecided",
         (false, _) => "DISAGREE",
@@ -94,19 +88,18 @@ pub fn write_audit(
         out,
         "  exact       {value} ({strength}), components {parts}, {time:.3} s\n  \
                float       {float_value}, components {float_parts}, {float_time:.3} s\n  \
-               smallest    singular value {sigma:.3e}, eigenvalue {eigenvalue:.3e}; tolerance {tolerance:e}, {margin}"
+               smallest    singular value {sigma:.3e}, eigenvalue {eigenvalue:.3e}; tolerance {tolerance:e}, margin {margin:+.1} decades"
     )?;
     if draws > 1 {
         let percent = 100.0 * misjudged as f64 / draws as f64;
-        writeln!(
-            out,
-            "  draws       {misjudged} of {draws} misjudged ({percent:.2} %)"
-        )?;
+        write!(out, "  draws       {misjudged} of {draws} misjudged ")?;
+        writeln!(out, "({percent:.2} %)")?;
     }
     writeln!(out, "  result      {result}")?;
-    reason
-        .into_iter()
-        .try_for_each(|reason| writeln!(out, "  because     {reason}"))
+    match reason {
+        Some(reason) => writeln!(out, "  because     {reason}"),
+        None => Ok(()),
+    }
 }
 
 /// What is so.
@@ -136,22 +129,18 @@ pub fn write_ruling(
     let (graph, claim) = (&input.graph, row.map(|(_, claim, _)| claim));
     let (number, name) = (row.map(|(number, ..)| number), claim.and_then(Claim::name));
     let ruling = row.map(|(.., ruling)| ruling.said());
-    let (model, strength, components, rank, required) = match found {
+    let (model, strength, [components, rank, required], sigma) = match found {
         Found::Generic(exact) => {
-            let (strength, parts) = (exact.value_claim().strength, exact.components.len());
-            (exact.model, strength, parts, exact.rank, exact.required)
+            let counts = [exact.components.len(), exact.rank, exact.required];
+            (exact.model, exact.value_claim().strength, counts, None)
         }
-        Found::AtCameras(here, _) => {
-            let (rank, parts) = (here.rank, here.components.value.len());
-            (here.model, rank.strength, parts, rank.value, here.required)
+        Found::AtCameras(here, sigma) => {
+            let counts = [here.components.value.len(), here.rank.value, here.required];
+            let sigma = sigma.map(Enclosure::decimals);
+            (here.model, here.rank.strength, counts, sigma)
         }
     };
-    let sigma = match found {
-        Found::AtCameras(_, Some(found)) => {
-            matrix(model, graph.nodes()).zip(Some(found.decimals()))
-        }
-        _ => None,
-    };
+    let sigma = matrix(model, graph.nodes()).zip(sigma);
     if json {
         let line = json!({
             "row": number,

@@ -8,7 +8,7 @@ use std::io::Write;
 use std::path::PathBuf;
 use viewcert::decide;
 use viewcert::decide::Value;
-use viewcert_audit::{Options, TOLERANCE};
+use viewcert_audit::TOLERANCE;
 use viewcert_cli::InputArguments;
 use viewcert_formats::NamedGraph;
 use viewcert_formats::csv;
@@ -44,15 +44,6 @@ pub struct Arguments {
     /// table to standard error).
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
-}
-
-impl Arguments {
-    fn options(&self) -> Options {
-        Options {
-            tolerance: self.tolerance,
-            seed: self.seed,
-        }
-    }
 }
 
 /// Sweeps over all graphs together.
@@ -162,7 +153,7 @@ fn add(
     let exact = decide::decide(&input.graph, &exact).with_context(name)?;
     let values = study::eigenvalues(
         &input.graph,
-        &arguments.options(),
+        arguments.seed,
         arguments.method,
         0..arguments.draws,
     );

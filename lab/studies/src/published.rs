@@ -4,7 +4,7 @@
 //! The method fixes the gauge at a pair and takes the pairs that do not move against it for its
 //! component. Pairs that always move as one need not be a component, though (docs/theory.md,
 //! Example 6.2). Whether that is the reason shows when nothing is rounded: the method as
-//! [`components`](viewcert_audit::components) runs it, with all pairs at every step; and as the paper
+//! [`Beside`](viewcert_audit::Beside) runs it, with all pairs at every step; and as the paper
 //! writes it, with the pairs that are left, from every pair as the first.
 
 use crate::formulation::augmented::augmented_size;

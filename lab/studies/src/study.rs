@@ -7,7 +7,7 @@ use std::fmt;
 use std::ops::Range;
 use std::str::FromStr;
 use viewcert::graph::Graph;
-use viewcert_audit::{AuditError, Options, augmented, decide};
+use viewcert_audit::{AuditError, augmented, smallest};
 
 /// Largest J of the dense methods, in entries of 8 bytes: 1 GiB.
 const MAX_DENSE: usize = 1 << 27;
@@ -69,7 +69,7 @@ pub enum StudyError {
 /// See [`StudyError`].
 pub fn eigenvalues(
     graph: &Graph,
-    options: &Options,
+    seed: u64,
     method: Method,
     draws: Range<u64>,
 ) -> Result<Vec<f64>, StudyError> {
@@ -83,13 +83,13 @@ pub fn eigenvalues(
     let one = |draw| {
         let dense = || {
             let mut dense: Columns = vec![vec![0.0; rows]; columns];
-            for (r, row) in augmented(graph, options.seed, draw).iter().enumerate() {
+            for (r, row) in augmented(graph, seed, draw).iter().enumerate() {
                 row.iter().for_each(|&(column, x)| dense[column][r] = x);
             }
             dense
         };
         Ok(match method {
-            Method::Sparse => decide(graph, options, draw)?.eigenvalue,
+            Method::Sparse => smallest(graph, seed, draw)?.powi(2),
             Method::Dense => singular(dense(), false)?.0[columns - 1].powi(2),
             Method::Gram => {
                 let dense = dense();

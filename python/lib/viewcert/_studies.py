@@ -89,6 +89,8 @@ def audit(
     """
     draws = whole("draws", draws, 1, 2**32 - 1)
     seed = whole("seed", seed, 0, 2**64 - 1)
+    if not 0 < tolerance < float("inf"):
+        raise InputError(f"tolerance={tolerance}: take a positive number")
     verdict = graph if isinstance(graph, Verdict) else verify(graph, model="projective", seed=seed)
     if verdict.model != "projective":
         raise InputError(f"audit: the float test is of the projective model, not of the {verdict.model} one")
