@@ -8,20 +8,13 @@ use crate::assumptions::{BaseLines, Planar, Scope};
 use crate::intrinsics::IntrinsicsLine;
 use crate::own_frame::OwnFrameLine;
 use serde::Serialize;
-use serde_json::{Value, to_value};
+use serde_json::{Value, json, to_value};
 use std::io::{self, Write};
 use viewcert::certificate::hex;
 use viewcert::decide::{Component, SolutionCount, Verdict};
 use viewcert_advice::Advice;
 use viewcert_formats::colmap::DatabaseFacts;
 use viewcert_formats::{NamedGraph, ReadAs};
-
-/// Which program wrote a line.
-#[derive(Serialize)]
-struct Program {
-    name: &'static str,
-    version: &'static str,
-}
 
 /// The format of the records; another one is not read as this.
 const FORMAT: u32 = 1;
@@ -31,7 +24,8 @@ const FORMAT: u32 = 1;
 struct Signed<'a, T> {
     kind: &'static str,
     format: u32,
-    program: Program,
+    /// Which program wrote it.
+    program: Value,
     #[serde(skip_serializing_if = "Option::is_none")]
     seed: Option<u64>,
     #[serde(flatten)]
@@ -49,10 +43,7 @@ pub fn write_line(
     seed: Option<u64>,
     line: &impl Serialize,
 ) -> io::Result<()> {
-    let program = Program {
-        name: "verify",
-        version: env!("CARGO_PKG_VERSION"),
-    };
+    let program = json!({"name": "verify", "version": env!("CARGO_PKG_VERSION")});
     let signed = Signed {
         kind,
         format: FORMAT,
@@ -94,12 +85,12 @@ struct Line<'a> {
     tracks: Option<TrackLine<'a>>,
     model: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
-    displacements: Option<DisplacementLine>,
+    displacements: Option<Value>,
     #[serde(skip_serializing_if = "Option::is_none")]
     own_frame: Option<&'a OwnFrameLine>,
     /// What is determined without what has a frame of its own, if that is given.
     #[serde(skip_serializing_if = "Option::is_none")]
-    measured: Option<MeasuredLine>,
+    measured: Option<Value>,
     #[serde(flatten)]
     answer: AnswerLine,
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
@@ -156,35 +147,18 @@ pub(super) fn parts(verdict: &Verdict) -> Option<usize> {
     Some(verdict.known_parts.len()).filter(|&parts| parts > 0)
 }
 
-/// Which displacements are supposed to be known, if any.
-#[derive(Serialize)]
-struct DisplacementLine {
-    groups: usize,
-    cameras: usize,
-    /// Whether their vectors are given, so that the answer is about these.
-    vectors: bool,
-    sha256: String,
-}
-
-impl DisplacementLine {
-    fn new(verdict: &Verdict) -> Option<Self> {
-        let known = &verdict.displacements;
-        (!known.is_empty()).then(|| Self {
-            groups: known.groups().len(),
-            cameras: known.nodes(),
-            vectors: known.vectors().is_some(),
-            sha256: hex(&known.sha256()),
+/// Which displacements are supposed to be known, if any, and whether their vectors are given, so that the answer is
+/// about these.
+fn displacements(verdict: &Verdict) -> Option<Value> {
+    let known = &verdict.displacements;
+    (!known.is_empty()).then(|| {
+        json!({
+            "groups": known.groups().len(),
+            "cameras": known.nodes(),
+            "vectors": known.vectors().is_some(),
+            "sha256": hex(&known.sha256()),
         })
-    }
-}
-
-/// What pairs and rigs determine by themselves.
-#[derive(Serialize)]
-struct MeasuredLine {
-    verdict: &'static str,
-    strength: &'static str,
-    rank: usize,
-    rank_required: usize,
+    })
 }
 
 /// What is decided, and how strong it is.
@@ -307,17 +281,8 @@ pub(super) struct ComponentLine {
 /// # Errors
 /// Those of the writer.
 pub fn write_failed(out: &mut impl Write, name: &str, error: &str) -> io::Result<()> {
-    #[derive(Serialize)]
-    struct Name<'a> {
-        name: &'a str,
-    }
-    #[derive(Serialize)]
-    struct Failed<'a> {
-        graph: Name<'a>,
-        error: &'a str,
-    }
-    let graph = Name { name };
-    write_line(out, "failed", None, &Failed { graph, error })
+    let failed = json!({"graph": {"name": name}, "error": error});
+    write_line(out, "failed", None, &failed)
 }
 
 /// Writes the report as one line.
@@ -337,13 +302,16 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
             .zip(input.tracks.as_ref())
             .map(|(cameras, facts)| TrackLine { cameras, facts }),
         model: verdict.model.name(),
-        displacements: DisplacementLine::new(verdict),
+        displacements: displacements(verdict),
         own_frame: report.scope.own_frame(),
-        measured: report.scope.own_frame().map(|_| MeasuredLine {
-            verdict: verdict.value.name(),
-            strength: verdict.value_claim().strength.name(),
-            rank: verdict.rank,
-            rank_required: verdict.required,
+        // What pairs and rigs determine by themselves.
+        measured: report.scope.own_frame().map(|_| {
+            json!({
+                "verdict": verdict.value.name(),
+                "strength": verdict.value_claim().strength.name(),
+                "rank": verdict.rank,
+                "rank_required": verdict.required,
+            })
         }),
         answer: AnswerLine::from(report),
         conditions: report.scope.conditions(),

@@ -1,16 +1,17 @@
 //! Every camera model side by side, for people and for programs.
 
-use super::json::{AnswerLine, GraphLine, parts, write_line};
+use super::json::{AnswerLine, GraphLine, joined, parts, present, write_line};
 use super::{counted, size_of, size_with_parts, text};
 use crate::assumptions::Scope;
 use crate::shown::{SHOWN, head_with, row, several, some_names};
 use serde::Serialize;
+use serde_json::json;
 use std::collections::{BTreeMap, HashMap};
 use std::io::{self, Write};
 use viewcert::decide::{Strength, Verdict};
 use viewcert::geometry::model::Model;
 use viewcert::wording::printable;
-use viewcert_formats::{NamedGraph, ReadAs};
+use viewcert_formats::NamedGraph;
 
 /// Components of one model that are one in the next.
 #[derive(Serialize)]
@@ -130,24 +131,6 @@ pub fn text(
     }
 }
 
-#[derive(Serialize)]
-struct Line<'a> {
-    graph: GraphLine<'a>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    parts: Option<usize>,
-    read: &'a ReadAs,
-    notes: &'a [String],
-    models: Vec<ModelLine>,
-    changes: &'a [Change],
-}
-
-#[derive(Serialize)]
-struct ModelLine {
-    model: &'static str,
-    #[serde(flatten)]
-    answer: AnswerLine,
-}
-
 /// Writes everything as one line.
 ///
 /// # Errors
@@ -158,17 +141,17 @@ pub fn json(
     verdicts: &[(Verdict, Scope)],
     changes: &[Change],
 ) -> io::Result<()> {
-    let model = |(verdict, scope): &(Verdict, Scope)| ModelLine {
-        model: verdict.model.name(),
-        answer: AnswerLine::new(input, verdict, scope, false),
+    let model = |(verdict, scope): &(Verdict, Scope)| {
+        let answer = AnswerLine::new(input, verdict, scope, false);
+        joined(json!({"model": verdict.model.name()}), &answer)
     };
-    let line = Line {
-        graph: GraphLine::new(input, &verdicts[0].0),
-        parts: parts(&verdicts[0].0),
-        read: &input.read,
-        notes: &input.notes,
-        models: verdicts.iter().map(model).collect(),
-        changes,
-    };
-    write_line(out, "models", Some(verdicts[0].0.seed), &line)
+    let line = json!({
+        "graph": GraphLine::new(input, &verdicts[0].0),
+        "parts": parts(&verdicts[0].0),
+        "read": input.read,
+        "notes": input.notes,
+        "models": verdicts.iter().map(model).collect::<Vec<_>>(),
+        "changes": changes,
+    });
+    write_line(out, "models", Some(verdicts[0].0.seed), &present(line))
 }

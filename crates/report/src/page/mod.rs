@@ -8,9 +8,9 @@
 //! but its own.
 
 use super::scene::{COLOURS, Kind, Scene, escaped};
-use super::{Report, json};
+use super::{Report, json as report_json};
 use base64::{Engine, prelude::BASE64_STANDARD};
-use serde::Serialize;
+use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 use std::io::{self, Write};
 
@@ -47,28 +47,6 @@ impl Foreword<'_> {
     }
 }
 
-/// What the script needs besides the report.
-#[derive(Serialize)]
-struct Drawing<'a> {
-    /// The program's version.
-    version: &'static str,
-    /// Names of the cameras, in the order of the nodes.
-    names: &'a [String],
-    /// How many edges each of them has.
-    degrees: Vec<u32>,
-    /// The lines, end after end, if the picture shows all nodes.
-    edges: Option<Vec<u32>>,
-    /// How many lines are dashed, dotted and red.
-    others: [usize; 3],
-    /// The colours of components, which repeat with another shape.
-    colours: [&'static str; COLOURS.len()],
-    /// How many components, the first ones, have a mark of their own.
-    marked: usize,
-    /// The nodes of each metric component, if cameras have classes.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    metric: Option<&'a [Vec<u32>]>,
-}
-
 /// Writes the page.
 ///
 /// # Errors
@@ -84,7 +62,7 @@ pub(crate) fn write(
         list_components: true,
         ..*report
     };
-    json::write(&mut numbers, &listing)?;
+    report_json::write(&mut numbers, &listing)?;
     let drawing = serde_json::to_vec(&drawing(report, scene))?;
     let mut parts = TEMPLATE.split("{{");
     out.write_all(parts.next().unwrap_or_default().as_bytes())?;
@@ -114,7 +92,8 @@ pub(crate) fn write(
     Ok(())
 }
 
-fn drawing<'a>(report: &'a Report, scene: &'a Scene) -> Drawing<'a> {
+/// What the script needs besides the report.
+fn drawing(report: &Report, scene: &Scene) -> Value {
     let graph = &report.input.graph;
     let mut degrees = vec![0u32; graph.nodes()];
     for &(i, j) in graph.edges() {
@@ -124,16 +103,22 @@ fn drawing<'a>(report: &'a Report, scene: &'a Scene) -> Drawing<'a> {
     degrees.truncate(scene.names.len());
     let edges = scene.edges.iter().filter(|edge| edge.kind == Kind::Pair);
     let edges = edges.flat_map(|edge| [edge.ends.0, edge.ends.1]);
-    Drawing {
-        version: env!("CARGO_PKG_VERSION"),
-        names: &scene.names,
-        degrees,
-        edges: scene.is_whole().then(|| edges.collect()),
-        others: [Kind::Short, Kind::Suggested, Kind::Contradicting].map(|kind| scene.of_kind(kind)),
-        colours: COLOURS,
-        marked: scene.marked(),
-        metric: report.scope.intrinsics().map(|found| found.nodes()),
-    }
+    let others =
+        [Kind::Short, Kind::Suggested, Kind::Contradicting].map(|kind| scene.of_kind(kind));
+    json!({
+        "version": env!("CARGO_PKG_VERSION"),
+        "names": scene.names,
+        "degrees": degrees,
+        // The lines, end after end, if the picture shows all nodes.
+        "edges": scene.is_whole().then(|| edges.collect::<Vec<u32>>()),
+        // How many lines are dashed, dotted and red.
+        "others": others,
+        "colours": COLOURS,
+        // How many components, the first ones, have a mark of their own.
+        "marked": scene.marked(),
+        // The nodes of each metric component, if cameras have classes.
+        "metric": report.scope.intrinsics().map(|found| found.nodes()),
+    })
 }
 
 /// Writes JSON into an element: there `<` would begin a tag. It stands in strings only, where it
