@@ -22,8 +22,10 @@ const LIST: &str = "pairs.txt";
 
 /// What to do about a file of which this was found.
 pub fn next(file: &File, found: &Overview) -> Next {
+    if let (Some(_), Some(model)) = (found.facts(), whole_model(found)) {
+        return model;
+    }
     match found.facts() {
-        Some(_) if let Some(model) = whole_model(found) => model,
         None if !found.beside.is_empty() && found.is_one_part() => of_models(file, found),
         Some(facts) if facts.pairs_used == 0 => without_pairs(file, found, facts),
         Some(facts) if facts.images_without_keypoints > 0 && found.no_model().is_some() => Next {

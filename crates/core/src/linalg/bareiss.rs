@@ -200,7 +200,7 @@ mod tests {
             // The determinant modulo a prime, by expansion along permutations.
             let f = PrimeField::mersenne61();
             let minor = m.submatrix(&done.pivots().rows, &done.pivots().cols);
-            let minor = minor.map(|x| f.from_integer(&x));
+            let minor = minor.map(|x| f.from_integer(x));
             let expected = expand(&f, &minor, &(0..rank).collect::<Vec<_>>());
             prop_assert_eq!(f.from_integer(done.determinant()), expected);
 
