@@ -7,6 +7,7 @@ what proofs/build.sh and site/notebooks.py have made. The documentation is made 
 
 import argparse
 import base64
+import collections
 import gzip
 import pathlib
 import re
@@ -59,19 +60,14 @@ def atlas(program, laboratory, target, begin):
     step(f"{len(rows)} rows", begin)
     text = "\n".join("\t".join(map(str, row)) for row in rows)
     assets.script(target / "static/rows.js", ATLAS={"columns": records.COLUMNS, "text": text})
-    siblings = {}
-    for row in rows:
-        siblings[row[records.COLUMNS.index("kernel")]] = siblings.get(row[records.COLUMNS.index("kernel")], 0) + 1
-    for k, record in enumerate(of_catalog):
-        before, after = of_catalog[k - 1] if k else None, of_catalog[k + 1] if k + 1 < len(of_catalog) else None
+    siblings = collections.Counter(row[records.COLUMNS.index("kernel")] for row in rows)
+    neighbours = zip([None, *of_catalog], of_catalog, [*of_catalog[1:], None])
+    for before, record, after in [*neighbours, *((None, record, None) for record in beside)]:
         write(target / f"graphs/{record.slug}.html", graph_page(record, siblings, before, after))
-    for record in beside:
-        write(target / f"graphs/{record.slug}.html", graph_page(record, siblings, None, None))
     step("pages of graphs", begin)
     write(target / "gallery.html", gallery_page(laboratory))
     step("gallery", begin)
-    titled = [record for record in of_catalog if record.title]
-    return titled + beside
+    return [record for record in of_catalog if record.title] + beside
 
 
 def main():
@@ -83,11 +79,8 @@ def main():
     parser.add_argument("--address", default="", help="where the site will stand, as https://example.org/atlas: for canonical links and the map of the site")
     asked = parser.parse_args()
     begin = time.monotonic()
-    asked.out.mkdir(parents=True, exist_ok=True)
     static = asked.out / "static"
-    for source in (HERE / "static").iterdir():
-        static.mkdir(exist_ok=True)
-        shutil.copy(source, static / source.name)
+    shutil.copytree(HERE / "static", static, copy_function=shutil.copy, dirs_exist_ok=True)
     assets.script(static / "terms.js", TERMS=assets.terms())
     browser.needed()
     assets.checkers(static, asked.cache, ROOT / "proofs/build/viewcert-proved.html")

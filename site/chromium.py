@@ -16,13 +16,12 @@ class Chromium:
         self.into, from_browser = os.pipe()
 
         def pipes():
-            os.dup2(to_browser, 3)
-            os.dup2(from_browser, 4)
+            # The ends have come in rising order: the first does not take the place of the second.
+            for end, place in ((to_browser, 3), (from_browser, 4)):
+                os.dup2(end, place)
+                os.set_inheritable(place, True)
 
         words = [program, "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--remote-debugging-pipe", f"--user-data-dir={self.folder.name}", "about:blank"]
-        # Both ends may already be 3 or 4 here: they are moved out of the way first.
-        to_browser, from_browser = [self._high(end) for end in (to_browser, from_browser)]
-        self.out, self.into = self._high(self.out), self._high(self.into)
         self.process = subprocess.Popen(words, preexec_fn=pipes, close_fds=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(to_browser)
         os.close(from_browser)
@@ -35,15 +34,6 @@ class Chromium:
             self.call(f"{domain}.enable")
         # As if the window were in front: what has the focus is told so.
         self.call("Emulation.setFocusEmulationEnabled", enabled=True)
-
-    @staticmethod
-    def _high(end):
-        import fcntl
-
-        high = fcntl.fcntl(end, fcntl.F_DUPFD, 20)
-        os.close(end)
-        os.set_inheritable(high, False)
-        return high
 
     def _message(self):
         while b"\0" not in self.buffer:

@@ -65,9 +65,7 @@ def program(static):
 def libraries(static, cache):
     """The scripts that are made of packages of npm."""
     folder = (pathlib.Path(cache) / "browser").resolve()
-    folder.mkdir(parents=True, exist_ok=True)
-    for source in HERE.iterdir():
-        shutil.copy(source, folder / source.name)
+    shutil.copytree(HERE, folder, copy_function=shutil.copy, dirs_exist_ok=True)
     bundler = folder / "node_modules/.bin/esbuild"
     if not bundler.exists():
         subprocess.run(["npm", "install", "--silent", "--no-audit", "--no-fund"], cwd=folder, check=True)

@@ -63,13 +63,9 @@ def api():
     text = "# Python, function by function\n\nAll that `import viewcert` brings. [The package](python.md) at a glance is a page of its own.\n"
     for title, names in exported().items():
         text += f"\n## {title}\n\n```{{eval-rst}}\n.. currentmodule:: viewcert\n\n"
-        for name in names:
-            if title == "Modules":
-                text += f".. automodule:: viewcert.{name}\n   :members:\n\n"
-            elif name[0].islower():
-                text += f".. autofunction:: {name}\n\n"
-            else:
-                text += f".. autoclass:: {name}\n   :members:\n\n"
+        directive = {"Functions": "autofunction:: ", "Modules": "automodule:: viewcert."}.get(title, "autoclass:: ")
+        members = "" if title == "Functions" else "   :members:\n"
+        text += "".join(f".. {directive}{name}\n{members}\n" for name in names)
         text += "```\n"
     return text
 

@@ -42,11 +42,6 @@ def solutions_fact(report):
     return f"{solutions['at_least']} to {solutions['at_most']}"
 
 
-def slack(report):
-    nodes, pairs = report["graph"]["nodes"], report["graph"]["edges"]
-    return 7 * pairs - (11 * nodes - 15)
-
-
 def facts_of(record):
     report, name = record.report, record.name
     nodes, pairs = record.size
@@ -54,7 +49,7 @@ def facts_of(record):
         ("cameras", nodes, "/graph/nodes", nodes),
         ("pairs", pairs, "/graph/edges", pairs),
         (term("rank"), f"{report['rank']} of {report['rank_required']}, {strength(report, 'rank_strength')}", "/rank", report["rank"]),
-        (term("slack", "counting"), f"7·{pairs} − (11·{nodes} − 15) = {slack(report)}"),
+        (term("slack", "counting"), f"7·{pairs} − (11·{nodes} − 15) = {7 * pairs - (11 * nodes - 15)}"),
         ("solutions", solutions_fact(report)),
         ("components", len(report["components"])),
     ]
@@ -189,9 +184,8 @@ def article(record, siblings, up):
 def written(graph6, said, siblings, listed):
     """The same of a graph of the reader's, in the browser, of what each run of `verify` has printed: texts by name, where a run that gave nothing is \"\"."""
     read = lambda name: json.loads(said[name]) if said.get(name) else None
-    record = Record(graph6, read("report"), read("models"), read("label"), listed=listed)
-    record.certificate, record.proof = said.get("certificate", ""), said.get("proof", "")
-    record.picture, record.witness = said["picture"], said.get("witness", "")
+    kept = {name: said.get(name, "") for name in ("certificate", "proof", "picture", "witness")}
+    record = Record(graph6, read("report"), read("models"), read("label"), listed=listed, **kept)
     record.slug = record.label or graph6
     return article(record, siblings, "")
 

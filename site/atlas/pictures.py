@@ -39,8 +39,7 @@ def step(where, pairs, colour_of, ring=(), words=""):
     lines, circles = [], []
     for i, j in pairs:
         colour = colour_of.get((i, j), GREY)
-        line = f'<line x1="{at[i][0]}" y1="{at[i][1]}" x2="{at[j][0]}" y2="{at[j][1]}" stroke="{colour}" stroke-width="{2 if colour == GREY else 4}"/>'
-        lines.append(line)
+        lines.append(f'<line x1="{at[i][0]}" y1="{at[i][1]}" x2="{at[j][0]}" y2="{at[j][1]}" stroke="{colour}" stroke-width="{2 if colour == GREY else 4}"/>')
     inside = {v: colour_of[pair] for pair in pairs if pair in colour_of for v in pair}
     for v, (x, y) in at.items():
         extra = ' stroke="#222" stroke-width="2"' if v in ring else ' stroke="#fff"'

@@ -1,7 +1,6 @@
 """What is known of one graph, and needs nothing of this machine: pages in the browser are made of it as well."""
 
-import dataclasses
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from .graphs import of_graph6
 
@@ -19,7 +18,7 @@ class Record:
     picture: str = ""
     witness: str = ""
     # Of how many real solutions how many are oriented, near cameras that were found; and a picture of two scenes.
-    oriented: list = dataclasses.field(default_factory=list)
+    oriented: list = field(default_factory=list)
     second_scene: str = ""
     title: str = ""
     about: str = ""

@@ -41,10 +41,7 @@ def catalog(program):
     lines = [json.loads(certificate)["graph"]["graph6"] for certificate in certificates]
     reports = program.lines(["--solutions=full"], lines)
     told = zip(lines, reports, program.lines(["models"], lines), program.lines(["label"], lines), certificates)
-    records = [Record(line, report, models, name, certificate) for line, report, models, name, certificate in told]
-    for record in records:
-        record.slug = record.label
-        record.title = NAMES.get(record.label, "")
+    records = [Record(*known, slug=known[3]["label"], title=NAMES.get(known[3]["label"], "")) for known in told]
     name_smallest(records)
     return records
 
@@ -70,9 +67,8 @@ def famous(program):
         models = json.loads(program.run(["models", "--json", "-"], text))
         small = full["graph"]["nodes"] <= 16
         name = json.loads(program.run(["label", "--json", "-"], text)) if small else None
-        record = Record(line, full, models, name, title=title, about=about, slug=slug)
-        record.certificate = program.file(["GRAPH", "--certificate", "FILE"], line + "\n")
-        records.append(record)
+        certificate = program.file(["GRAPH", "--certificate", "FILE"], line + "\n")
+        records.append(Record(line, full, models, name, certificate, title=title, about=about, slug=slug))
     return records
 
 

@@ -17,7 +17,6 @@ class Story:
     def __init__(self, certificate, pairs, where):
         self.certificate, self.pairs, self.where = certificate, [tuple(p) for p in pairs], where
         self.bodies = []  # sets of pairs
-        self.nodes = []  # sets of nodes
         self.used = set()
         self.steps = []
 
@@ -29,37 +28,32 @@ class Story:
         self.steps.append((words, step(self.where, self.pairs, colour_of, ring, words)))
 
     def take(self, group):
-        """The pairs and nodes of a pair, or of an earlier body, which is used up."""
+        """The pairs of a pair, or of an earlier body, which is used up."""
         if isinstance(group, int):
             self.used.add(group)
-            return self.bodies[group], self.nodes[group], f"body {group + 1}"
+            return self.bodies[group], f"body {group + 1}"
         pair = tuple(sorted(group))
-        return {pair}, set(pair), f"the pair {pair[0]}-{pair[1]}"
+        return {pair}, f"the pair {pair[0]}-{pair[1]}"
 
     def tell(self):
         """The steps, as pairs of words and pictures."""
         for number, body in enumerate(self.certificate["bodies"], 1):
-            pairs, nodes, what = self.take(body["seed"])
-            self.bodies.append(set(pairs))
-            self.nodes.append(set(nodes))
-            mine, held = self.bodies[-1], self.nodes[-1]
+            pairs, what = self.take(body["seed"])
+            mine = set(pairs)
+            self.bodies.append(mine)
             start = f"Body {number} starts from {what}."
             for v, a, b in body["add"]:
                 mine |= {tuple(sorted((v, a))), tuple(sorted((v, b)))}
-                held.add(v)
                 self.show(f"{start} Camera {v} is matched to {a} and {b}, which are in it: it joins.".strip(), {v})
                 start = ""
             for merge in body["merge"]:
                 names = []
                 for group in merge["with"]:
-                    pairs, nodes, what = self.take(group)
+                    pairs, what = self.take(group)
                     mine |= pairs
-                    held |= nodes
                     names.append(what)
-                rule = {1: "share two cameras with it", 2: "hang together with it in a triangle", 5: "are a K2,3 with it"}
+                rule = {1: "shares two cameras with it", 2: "hang together with it in a triangle", 5: "are a K2,3 with it"}
                 why = rule.get(len(names), "merge with it")
-                if len(names) == 1:
-                    why = "shares two cameras with it"
                 what = named(names)
                 self.show(f"{start} {what[0].upper()}{what[1:]} {why}, at the cameras {named(merge['at'])}: one body.".strip(), set(merge["at"]))
                 start = ""
@@ -67,7 +61,7 @@ class Story:
                 self.show(start)
         left = [k for k in range(len(self.bodies)) if k not in self.used]
         loose = len(self.pairs) - sum(len(self.bodies[k]) for k in left)
-        if left and not loose and len(left) == 1 and len(self.nodes[left[0]]) == len(self.where):
+        if len(left) == 1 and not loose and len(set().union(*self.bodies[left[0]])) == len(self.where):
             end = "One body holds all cameras: they are determined uniquely."
         elif left:
             end = f"No rule goes on: {len(left)} {'body' if len(left) == 1 else 'bodies'} and {loose} loose pairs are left, for the algebra."

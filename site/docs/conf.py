@@ -1,6 +1,7 @@
 """Sphinx: CommonMark by MyST, formulas as MathML."""
 
 import dataclasses
+import functools
 import json
 import pathlib
 import subprocess
@@ -39,36 +40,30 @@ pygments_style = "default"
 suppress_warnings = ["myst.header", "misc.highlighting_failure"]
 
 
-class Formulas:
-    """One process of Node that answers a formula a line."""
-
-    def __init__(self):
-        self.process, self.known = None, {}
-
-    def mathml(self, formula, display):
-        if (formula, display) not in self.known:
-            if self.process is None:
-                words = ["node", str(HERE / "formulas.js"), PLACE["katex"]]
-                self.process = subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-            self.process.stdin.write(json.dumps({"formula": formula, "display": display}) + "\n")
-            self.process.stdin.flush()
-            answer = json.loads(self.process.stdout.readline())
-            if "error" in answer:
-                raise ValueError(f"{formula}: {answer['error']}")
-            self.known[formula, display] = answer["mathml"]
-        return self.known[formula, display]
+@functools.cache
+def node():
+    """One process that answers a formula a line."""
+    return subprocess.Popen(["node", HERE / "formulas.js", PLACE["katex"]], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
 
 
-FORMULAS = Formulas()
+@functools.cache
+def mathml(formula, display):
+    process = node()
+    process.stdin.write(json.dumps({"formula": formula, "display": display}) + "\n")
+    process.stdin.flush()
+    answer = json.loads(process.stdout.readline())
+    if "error" in answer:
+        raise ValueError(f"{formula}: {answer['error']}")
+    return answer["mathml"]
 
 
 def inline(translator, node):
-    translator.body.append(FORMULAS.mathml(node.astext(), False))
+    translator.body.append(mathml(node.astext(), False))
     raise SkipNode
 
 
 def block(translator, node):
-    translator.body.append(f'<div class="formula" tabindex="0">{FORMULAS.mathml(node.astext(), True)}</div>')
+    translator.body.append(f'<div class="formula" tabindex="0">{mathml(node.astext(), True)}</div>')
     raise SkipNode
 
 

@@ -17,11 +17,9 @@ document.addEventListener("DOMContentLoaded", () => {
         const anchor = anchorOf[match[1].toLowerCase()];
         if (seen.has(anchor)) continue;
         seen.add(anchor);
-        const link = document.createElement("a"), rest = node.splitText(match.index);
+        const link = make("a", { className: "term" }, match[0]), rest = node.splitText(match.index);
         rest.data = rest.data.slice(match[0].length);
-        link.className = "term";
         link.dataset.term = anchor;
-        link.textContent = match[0];
         rest.before(link);
       }
     }

@@ -69,14 +69,10 @@ with contextlib.redirect_stdout(shown), contextlib.redirect_stderr(shown):
 }
 
 function answer(place, who, { code, out }) {
-  const div = document.createElement("div");
-  div.className = `answer ${{ 0: "verified", 1: "rejected" }[code] ?? "undecided"}`;
+  const kind = { 0: "verified", 1: "rejected" }[code] ?? "undecided";
+  const div = make("div", { className: `answer ${kind}` }, make("h3", {}, who), make("pre", {}, out.trim()));
   div.dataset.code = code;
-  const head = document.createElement("h3"), pre = document.createElement("pre");
-  head.textContent = who;
-  pre.textContent = out.trim();
-  div.append(head, pre);
-  if (code !== 0 && code !== 1) div.append("Nothing was decided. The program viewcert-check takes what is too large for this page, and a certificate that needs its graph takes the graph as a second file.");
+  if (kind === "undecided") div.append("Nothing was decided. The program viewcert-check takes what is too large for this page, and a certificate that needs its graph takes the graph as a second file.");
   place.append(div);
 }
 
@@ -84,9 +80,7 @@ const SECOND = "The second checker, Python in this page (crates/check/second)";
 const PROVED = "The checker that is proved correct in Coq (proofs/), on its own proof";
 
 async function checkAll(certificate, pairs, proof) {
-  const place = document.getElementById("answers");
-  const wait = document.createElement("p");
-  wait.textContent = "Python is starting; the first time takes some seconds …";
+  const place = id("answers"), wait = make("p", {}, "Python is starting; the first time takes some seconds …");
   place.replaceChildren(wait);
   for (const [who, run] of [[SECOND, () => second(certificate, pairs)], ...(proof ? [[PROVED, () => proved(pairs, proof)]] : [])]) {
     const found = await run().catch((error) => ({ code: 2, out: `this checker did not run: ${error}` }));
@@ -105,15 +99,15 @@ function tampered(certificate, proof) {
 
 // The part of a page that has a certificate: its box and its buttons.
 function offerChecks() {
-  const box = document.getElementById("certificate-text");
-  if (!box || !document.getElementById("certificate")) return;
+  const box = id("certificate-text");
+  if (!box || !id("certificate")) return;
   let proof = "";
   const shown = () => { box.value = text("certificate"); proof = text("proof"); };
   shown();
   const check = () => checkAll(box.value, text("pairs"), proof);
-  document.getElementById("check-now").addEventListener("click", check);
-  document.getElementById("restore").addEventListener("click", () => { shown(); document.getElementById("answers").replaceChildren(); });
-  document.getElementById("tamper").addEventListener("click", () => {
+  id("check-now").addEventListener("click", check);
+  id("restore").addEventListener("click", () => { shown(); id("answers").replaceChildren(); });
+  id("tamper").addEventListener("click", () => {
     [box.value, proof] = tampered(text("certificate"), text("proof"));
     check();
   });
@@ -121,15 +115,12 @@ function offerChecks() {
 offerChecks();
 
 // Files that the reader chooses.
-document.getElementById("check-files")?.addEventListener("click", async () => {
-  const file = (name) => document.getElementById(`${name}-file`).files[0];
-  const read = async (name) => (file(name) ? await file(name).text() : "");
-  const place = document.getElementById("answers");
-  if (!file("certificate")) {
-    place.replaceChildren("Choose a certificate first.");
+id("check-files")?.addEventListener("click", async () => {
+  const [certificate, graph, proof] = await Promise.all(["certificate", "graph", "proof"].map((name) => id(`${name}-file`).files[0]?.text()));
+  if (certificate === undefined) {
+    id("answers").replaceChildren("Choose a certificate first.");
     return;
   }
-  const graph = await read("graph"), proof = await read("proof");
-  await checkAll(await read("certificate"), graph, graph && proof ? proof : "");
-  if (proof && !graph) place.append("The proved checker takes a graph and a proof: choose the graph as well.");
+  await checkAll(certificate, graph ?? "", graph && proof);
+  if (proof && !graph) id("answers").append("The proved checker takes a graph and a proof: choose the graph as well.");
 });

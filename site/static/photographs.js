@@ -1,6 +1,5 @@
 "use strict";
 // What the reader drops or chooses, and `verify overview` of it, in this page.
-const id = (name) => document.getElementById(name);
 let asked = 0, answer = null;
 
 // The files of a dropped folder, with their paths.
@@ -67,8 +66,7 @@ for (const event of ["dragover", "drop"]) addEventListener(event, (happened) => 
 addEventListener("drop", (event) => { const files = dropped(event.dataTransfer.items); overview(() => files); });
 for (const button of document.querySelectorAll("[data-sample]")) button.addEventListener("click", () => overview(async () => {
   await load("samples.js");
-  const name = button.dataset.sample, packed = new Blob([bytes(window.SAMPLES[name])]).stream().pipeThrough(new DecompressionStream("deflate"));
-  return [[name, await new Response(packed).blob()]];
+  return [[button.dataset.sample, await unpacked(window.SAMPLES[button.dataset.sample]).blob()]];
 }));
 id("stop").addEventListener("click", () => PROGRAM.stop());
 id("keep-page").addEventListener("click", () => save(`${answer.name}.html`, answer.page, "text/html"));

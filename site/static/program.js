@@ -11,8 +11,7 @@ const PROGRAM = (() => {
     const found = location.protocol.startsWith("http") && await fetch("static/verify.wasm");
     if (found.ok) return WebAssembly.compile(await found.arrayBuffer());
     await load("verify.js");
-    const packed = new Blob([bytes(window.VERIFY)]).stream().pipeThrough(new DecompressionStream("deflate"));
-    return WebAssembly.compile(await new Response(packed).arrayBuffer());
+    return WebAssembly.compile(await unpacked(window.VERIFY).arrayBuffer());
   }
 
   async function start() {

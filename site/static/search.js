@@ -8,12 +8,10 @@ const WORDS = { affine: YES, calibrated: YES, planar: YES, girth: { 0: "no cycle
 const SHOWN = 100;
 
 const state = { chosen: {}, degrees: "", sort: "", falling: false, shown: SHOWN };
-const id = (name) => document.getElementById(name);
 
 function readAddress() {
   const words = new URLSearchParams(location.hash.slice(1));
-  state.chosen = {};
-  for (const name of FACETS) if (words.has(name)) state.chosen[name] = words.get(name);
+  state.chosen = Object.fromEntries([...words].filter(([name]) => FACETS.includes(name)));
   state.degrees = words.get("degrees") ?? "";
   state.sort = NAMES.includes(words.get("sort")) ? words.get("sort") : "";
   state.falling = words.get("order") === "falling";
@@ -78,12 +76,7 @@ function fill(counts) {
   }
 }
 
-function cell(text, kind = "") {
-  const td = document.createElement("td");
-  td.textContent = text;
-  td.className = kind;
-  return td;
-}
+const cell = (content, className = "") => make("td", { className }, content);
 
 // A row without a stored page has one made in the browser.
 const pageOf = (row) => (row[AT.page] !== "0" ? `graphs/${row[AT.page]}.html` : `graph.html#${encodeURIComponent(row[AT.graph6])}`);
@@ -92,27 +85,17 @@ const pageOf = (row) => (row[AT.page] !== "0" ? `graphs/${row[AT.page]}.html` : 
 function hint(counts) {
   const near = Object.keys(state.chosen).map((name) => [name, [...counts[name].values()].reduce((all, more) => all + more, 0)]).filter(([, count]) => count);
   id("hint").replaceChildren(...near.map(([name, count]) => {
-    const button = document.createElement("button");
-    button.type = "button";
-    button.textContent = `Any ${document.querySelector(`label[for="${name}"]`).textContent}: ${count}`;
-    button.addEventListener("click", () => { delete state.chosen[name]; update(); });
-    return button;
+    const words = `Any ${document.querySelector(`label[for="${name}"]`).textContent}: ${count}`;
+    return make("button", { type: "button", onclick: () => choose(name, "") }, words);
   }));
   if (!near.length) id("hint").textContent = "No single condition is to blame: clear some of them.";
 }
 
 function show() {
-  const body = id("rows");
-  body.replaceChildren(...found.slice(0, state.shown).map((row) => {
-    const tr = document.createElement("tr");
-    const name = cell("");
-    const link = document.createElement("a");
-    link.textContent = row[AT.label];
-    link.href = pageOf(row);
-    name.append(link);
-    tr.append(name, cell(row[AT.nodes], "num"), cell(row[AT.pairs], "num"), cell(inWords("solutions", row[AT.solutions]), "num"), cell(row[AT.degrees].replaceAll(",", " ")),
+  id("rows").replaceChildren(...found.slice(0, state.shown).map((row) => {
+    const link = make("a", { href: pageOf(row) }, row[AT.label]);
+    return make("tr", {}, cell(link), cell(row[AT.nodes], "num"), cell(row[AT.pairs], "num"), cell(inWords("solutions", row[AT.solutions]), "num"), cell(row[AT.degrees].replaceAll(",", " ")),
       cell(inWords("girth", row[AT.girth]), "num"), cell(row[AT.automorphisms], "num"), cell(row[AT.triangles], "num"), cell(WORDS.affine[row[AT.affine]]), cell(WORDS.calibrated[row[AT.calibrated]]));
-    return tr;
   }));
   id("more").hidden = found.length <= state.shown;
   for (const button of document.querySelectorAll("th button")) {
@@ -123,6 +106,7 @@ function show() {
 
 function update() {
   if (!ROWS) return;
+  state.shown = SHOWN;
   const [counts, time] = filter();
   fill(counts);
   show();
@@ -135,19 +119,17 @@ function update() {
   writeAddress();
 }
 
-for (const name of FACETS) id(name).addEventListener("change", (event) => {
-  if (event.target.value) state.chosen[name] = event.target.value; else delete state.chosen[name];
-  state.shown = SHOWN;
-  update();
-});
-id("degrees").addEventListener("input", (event) => { state.degrees = event.target.value; state.shown = SHOWN; update(); });
-for (const name of NUMBERS) id(`${name}-range`).addEventListener("input", ({ target: { value } }) => {
-  if (value && !bounds(name, value) && !/^\d+$/.test(value)) return;
+function choose(name, value) {
   if (value) state.chosen[name] = value; else delete state.chosen[name];
-  state.shown = SHOWN;
   update();
+}
+
+for (const name of FACETS) id(name).addEventListener("change", (event) => choose(name, event.target.value));
+id("degrees").addEventListener("input", (event) => { state.degrees = event.target.value; update(); });
+for (const name of NUMBERS) id(`${name}-range`).addEventListener("input", ({ target: { value } }) => {
+  if (!value || bounds(name, value) || /^\d+$/.test(value)) choose(name, value);
 });
-id("clear").addEventListener("click", () => { state.chosen = {}; state.degrees = ""; id("degrees").value = ""; state.shown = SHOWN; update(); });
+id("clear").addEventListener("click", () => { state.chosen = {}; state.degrees = ""; id("degrees").value = ""; update(); });
 id("more").addEventListener("click", () => { state.shown += 5 * SHOWN; show(); });
 for (const button of document.querySelectorAll("th button")) button.addEventListener("click", () => {
   state.falling = state.sort === button.dataset.sort && !state.falling;
@@ -178,9 +160,8 @@ id("find").addEventListener("submit", (event) => {
   else if (!far || (plain(asked).length > 3 && plain(name).includes(plain(asked)))) location.href = page;
   else if (/^vg\./i.test(asked) || far > Math.min(2, plain(asked).length / 2)) location.href = `graph.html#${encodeURIComponent(asked)}`;
   else {
-    const link = document.createElement("a"), other = document.createElement("a");
-    [link.href, link.textContent, other.href, other.textContent] = [page, name, `graph.html#${encodeURIComponent(asked)}`, `read ${asked} as a graph`];
-    id("near").replaceChildren("Did you mean ", link, "? Or ", other, ".");
+    const other = make("a", { href: `graph.html#${encodeURIComponent(asked)}` }, `read ${asked} as a graph`);
+    id("near").replaceChildren("Did you mean ", make("a", { href: page }, name), "? Or ", other, ".");
   }
 });
 

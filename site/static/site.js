@@ -4,6 +4,14 @@
 const text = (id) => JSON.parse(document.getElementById(id).textContent);
 const up = document.body?.dataset.up ?? "../";
 const loaded = {};
+const id = (name) => document.getElementById(name);
+
+// An element with these properties and what it contains.
+function make(name, properties, ...content) {
+  const made = Object.assign(document.createElement(name), properties);
+  made.append(...content);
+  return made;
+}
 
 function load(name) {
   loaded[name] ??= new Promise((done, failed) => {
@@ -17,11 +25,10 @@ function load(name) {
 }
 
 const bytes = (base64) => Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+const unpacked = (base64) => new Response(new Blob([bytes(base64)]).stream().pipeThrough(new DecompressionStream("deflate")));
 
 function save(name, content, type = "text/plain") {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(new Blob([content], { type }));
-  link.download = name;
+  const link = make("a", { href: URL.createObjectURL(new Blob([content], { type })), download: name });
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
@@ -41,13 +48,7 @@ function enliven(part) {
     const found = (window.TERMS || {})[link.dataset.term];
     if (!found) continue;
     link.href = `${up}docs/glossary.html#${link.dataset.term}`;
-    const show = () => {
-      const tip = document.createElement("span");
-      tip.className = "tip";
-      tip.role = "tooltip";
-      tip.textContent = found;
-      link.append(tip);
-    };
+    const show = () => link.append(make("span", { className: "tip", role: "tooltip" }, found));
     const hide = () => link.querySelector(".tip")?.remove();
     for (const event of ["mouseenter", "focus"]) link.addEventListener(event, show);
     for (const event of ["mouseleave", "blur"]) link.addEventListener(event, hide);

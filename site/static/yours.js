@@ -1,7 +1,6 @@
 "use strict";
 // A graph of the reader's: pasted or drawn, named, looked up in the atlas, and decided in the page.
-let rows = null, AT = null;
-const id = (name) => document.getElementById(name);
+let AT = null;
 const SVG = "http://www.w3.org/2000/svg";
 const drawn = { nodes: 0, pairs: [], names: null, places: [], chosen: null };
 const MOST_DRAWN = 200;
@@ -10,8 +9,7 @@ const MOST_NODES = 16; // Of a label.
 async function rowOf(label) {
   await load("rows.js");
   AT ??= Object.fromEntries(window.ATLAS.columns.map((name, k) => [name, k]));
-  rows ??= new Map(window.ATLAS.text.split("\n").map((line) => [line.slice(0, line.indexOf("\t")), line]));
-  return rows.get(label)?.split("\t");
+  return window.ATLAS.text.split("\n").find((line) => line.startsWith(`${label}\t`))?.split("\t");
 }
 
 function element(name, attributes, text = "") {
@@ -46,27 +44,17 @@ function paint() {
   });
 }
 
-function line(term, value) {
-  const div = document.createElement("div"), dt = document.createElement("dt"), dd = document.createElement("dd");
-  dt.textContent = term;
-  dd.append(value);
-  div.append(dt, dd);
-  return div;
-}
+const line = (term, value) => make("div", {}, make("dt", {}, term), make("dd", {}, value));
 
 // What is said at once, counted in this script.
 function tell() {
-  const place = id("found");
   const { nodes, pairs, names } = drawn;
-  place.replaceChildren();
+  id("found").replaceChildren();
   if (!nodes) return;
-  const facts = document.createElement("dl");
-  facts.className = "facts";
-  const degrees = Array(nodes).fill(0);
+  const degrees = Array(nodes).fill(0), words = make("p");
   for (const pair of pairs) for (const v of pair) degrees[v]++;
-  facts.append(line("cameras", nodes), line("pairs", pairs.length), line("degrees", degrees.sort((a, b) => b - a).join(", ")));
-  const words = document.createElement("p");
-  place.append(facts, words);
+  const facts = [line("cameras", nodes), line("pairs", pairs.length), line("degrees", degrees.sort((a, b) => b - a).join(", "))];
+  id("found").append(make("dl", { className: "facts" }, ...facts), words);
   if (names?.some((name, v) => name !== String(v))) words.append(`Numbered here: ${names.map((name, v) => `${v} is ${name}`).join(", ")}. `);
 }
 
@@ -77,10 +65,8 @@ async function tellName({ label, graph6, girth, automorphisms }, current) {
   facts.dataset.label = label;
   const row = await rowOf(label);
   if (!row || !current()) return;
-  const link = document.createElement("a"), stored = row[AT.page] !== "0";
-  link.href = stored ? `graphs/${row[AT.page]}.html` : `search.html#kernel=${row[AT.kernel]}`;
-  link.textContent = stored ? "its page" : "graphs with the same kernel";
-  facts.nextSibling.append("This graph is in the atlas: ", link, ".");
+  const [href, words] = row[AT.page] !== "0" ? [`graphs/${row[AT.page]}.html`, "its page"] : [`search.html#kernel=${row[AT.kernel]}`, "graphs with the same kernel"];
+  facts.nextSibling.append("This graph is in the atlas: ", make("a", { href }, words), ".");
 }
 
 // Seconds that one question may take, and the most pairs for which a second solution and an explicit proof are asked for.
@@ -142,14 +128,10 @@ async function decide() {
 
 // The verdict of the last run, in the place of that before it.
 function tellVerdict(report) {
-  const words = document.createElement("p"), badge = document.createElement("span");
   const [word, kind] = { solvable: ["solvable", "good"], "finite-solvable": ["finite solvable", "fair"], "not-finite-solvable": ["not finite solvable", "bad"] }[report.verdict];
-  badge.className = `badge ${kind}`;
-  badge.textContent = word;
-  words.append(badge, ` rank ${report.rank} of ${report.rank_required}, ${report.strength === "proof" ? "proved" : `error at most 2^${report.error_log2}`}: ${report.because.replace(/K_\{([\d,]+)\}/g, "K$1")}.`);
-  words.id = "verdict";
+  const words = ` rank ${report.rank} of ${report.rank_required}, ${report.strength === "proof" ? "proved" : `error at most 2^${report.error_log2}`}: ${report.because.replace(/K_\{([\d,]+)\}/g, "K$1")}.`;
   id("verdict")?.remove();
-  id("found").append(words);
+  id("found").append(make("p", { id: "verdict" }, make("span", { className: `badge ${kind}` }, word), words));
 }
 
 async function written(graph6, said) {
