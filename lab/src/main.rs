@@ -11,7 +11,6 @@ mod layout;
 mod mixtures;
 mod motion;
 mod oriented;
-mod plot;
 mod report;
 mod solutions;
 mod svg;

@@ -1,6 +1,5 @@
 //! `viewcert-lab random`: connected random graphs, the paper's Table 2.
 
-use crate::plot::{Point, plot};
 use anyhow::{Context, Result, anyhow};
 use clap::Args;
 use std::io::Write;
@@ -38,9 +37,6 @@ pub struct Arguments {
     /// output, and the table to standard error).
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
-    /// Write a plot to this file (`-`: as with --csv).
-    #[arg(long, value_name = "FILE")]
-    svg: Option<PathBuf>,
     /// Compare with a table: density_percent,graphs,finite_solvable,components_min,components_max.
     #[arg(long, value_name = "FILE")]
     compare: Option<PathBuf>,
@@ -69,9 +65,9 @@ const BATCH: u64 = 1024;
 
 /// Draws and decides graphs, and prints the table.
 pub fn run(session: &Session, arguments: &Arguments) -> Result<u8> {
-    let (csv, svg) = (arguments.csv.as_deref(), arguments.svg.as_deref());
+    let csv = arguments.csv.as_deref();
     let inputs = arguments.compare.as_deref();
-    outputs::ensure_apart(&[("--csv", csv), ("--svg", svg)], inputs)?;
+    outputs::ensure_apart(&[("--csv", csv)], inputs)?;
     let published = match &arguments.compare {
         Some(path) => read_table(path)?,
         None => Vec::new(),
@@ -98,13 +94,7 @@ pub fn run(session: &Session, arguments: &Arguments) -> Result<u8> {
             table.finish()
         })?;
     }
-    if let Some(path) = svg {
-        let points: Vec<Point> = columns.iter().map(Column::point).collect();
-        session
-            .outputs()
-            .write(path, |out| out.write_all(plot(&points).as_bytes()))?;
-    }
-    let mut out = outputs::text(&[csv, svg]);
+    let mut out = outputs::text(&[csv]);
     write_table(&mut out, &columns, &published).context("standard output")?;
     Ok(GOOD)
 }
@@ -182,14 +172,6 @@ impl Column {
 
     fn mean(&self) -> f64 {
         self.components.iter().sum::<usize>() as f64 / self.components.len() as f64
-    }
-
-    fn point(&self) -> Point {
-        Point {
-            density: self.percent / 100.0,
-            share: self.finite_solvable as f64 / self.graphs as f64,
-            components: [self.least() as f64, self.mean(), self.most() as f64],
-        }
     }
 }
 

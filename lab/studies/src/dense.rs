@@ -176,27 +176,10 @@ pub fn least_eigenvalue(mut matrix: Columns) -> Result<f64, AuditError> {
     }
 }
 
-/// The rank by MATLAB's default tolerance, max(rows, columns) eps(sigma_1), where eps(x) is
-/// the distance from x to the next larger double.
-pub fn matlab_rank(values: &[f64], (rows, columns): (usize, usize)) -> usize {
-    let largest = values.first().copied().unwrap_or(0.0);
-    let tolerance = rows.max(columns) as f64 * (largest.next_up() - largest);
-    values.iter().filter(|&&x| x > tolerance).count()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use proptest::prelude::*;
-
-    #[test]
-    fn the_rank_of_matlab() {
-        // eps(1) = 2^-52; a 3 x 2 matrix has the tolerance 3 * 2^-52.
-        let eps = f64::EPSILON;
-        assert_eq!(matlab_rank(&[1.0, 3.5 * eps], (3, 2)), 2);
-        assert_eq!(matlab_rank(&[1.0, 2.5 * eps], (3, 2)), 1);
-        assert_eq!(matlab_rank(&[1.0, f64::NAN], (3, 2)), 1);
-    }
 
     /// Singular values 5 and 1 of [[3, 2], [2, 3]]; a matrix of ones has rank 1, also if it is wide.
     #[test]

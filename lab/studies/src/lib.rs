@@ -1,7 +1,5 @@
-//! Studies beside the verifier: formulations of the literature side by side, the float audit,
-//! necessary and sufficient conditions.
+//! Studies beside the verifier: formulations of the literature side by side, necessary and sufficient conditions.
 
-pub mod affine_audit;
 pub mod conditions;
 pub mod dense;
 pub mod formulation;
