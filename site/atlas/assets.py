@@ -21,7 +21,7 @@ KATEX = ("katex", "0.19.1")
 PAIRS = 2147483647
 
 # What the second checker needs: all of its modules but tests and tools.
-TOOLS = {"agree.py", "conditions.py", "make.py", "path.py", "frames_by_force.py", "intrinsics_by_force.py"}
+TOOLS = {"agree.py", "conditions.py", "make.py", "path.py"}
 
 
 def package(name, version, cache):

@@ -20,15 +20,16 @@ import time
 
 import check
 import cores
-import frames_by_force
 import graphs
-import intrinsics_by_force
 import make
 import notation
 from claim import stated
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "benches"))
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path += [os.path.join(HERE, "..", "tests"), os.path.join(HERE, "..", "..", "..", "benches")]
 
+import frames_by_force  # noqa: E402
+import intrinsics_by_force  # noqa: E402
 import uniqueness  # noqa: E402
 
 PRIME = 2**61 - 1

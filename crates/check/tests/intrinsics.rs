@@ -31,7 +31,7 @@ fn changed(name: &str, pointer: &str, value: Value) -> Value {
 }
 
 /// Ranks, components and nodes are those of the differential of K [R | -R c], by
-/// `second/intrinsics_by_force.py`.
+/// `intrinsics_by_force.py` beside this file.
 #[test]
 fn what_is_verified() {
     let pairs = vec![vec![0, 1], vec![0, 4], vec![1, 2], vec![2, 3], vec![3, 4]];
