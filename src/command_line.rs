@@ -3,9 +3,11 @@
 //! In: the words. Out: what they mean, or the line to type. All is found in clap's own tree of commands, so a new
 //! option needs nothing here.
 
+use super::help::whole;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Arg, Command, Error, Parser};
 use std::ffi::OsString;
+use std::io::Write;
 use std::path::Path;
 use viewcert_advice::export::shell;
 use viewcert_formats::colmap::is_database;
@@ -24,6 +26,11 @@ pub fn parse<P: Parser>(words: impl IntoIterator<Item = OsString>) -> P {
             Some(why) => line.refused(ErrorKind::ValueValidation, why),
             None => found,
         },
+        Err(error) if error.kind() == ErrorKind::DisplayHelp && line.is_long() => {
+            // A reader that has seen enough is no error.
+            let _ = std::io::stdout().write_all(whole(line.command).as_bytes());
+            std::process::exit(0)
+        }
         Err(mut error) => match line.elsewhere::<P>(&error) {
             Some(why) => line.refused(ErrorKind::UnknownArgument, why),
             None => {
@@ -75,6 +82,11 @@ impl<'a> Line<'a> {
 
     fn parsed<P: Parser>(&self) -> Result<P, Error> {
         P::try_parse_from(self.all())
+    }
+
+    /// Whether all of the help is asked for.
+    fn is_long(&self) -> bool {
+        self.words.iter().any(|word| word == "--help")
     }
 
     /// The option that a word begins with, of this command.

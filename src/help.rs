@@ -3,7 +3,7 @@
 use super::input::InputArguments;
 use super::{given, intrinsics};
 use anyhow::{Context, Result, bail};
-use clap::{Args, Command};
+use clap::{Arg, Args, Command};
 use std::io::Write;
 use viewcert_session::exit::GOOD;
 
@@ -60,7 +60,18 @@ fn command(program: &mut Command, words: &[&str]) -> Result<String> {
         };
         of = found;
     }
-    Ok(of.render_long_help().to_string())
+    Ok(whole(of))
+}
+
+/// All of a command's help, with an option a line: clap's own long form takes three.
+pub(super) fn whole(command: &Command) -> String {
+    let end = command.get_after_long_help().cloned();
+    let command = command.clone().after_help(end.unwrap_or_default());
+    let shown = |arg: Arg| match arg.get_id() == "help" {
+        true => arg.help("Print help (see a summary with '-h')"),
+        false => arg.hide_short_help(false),
+    };
+    command.mut_args(shown).render_help().to_string()
 }
 
 fn input() -> String {
@@ -68,8 +79,6 @@ fn input() -> String {
     let options = options
         .disable_help_flag(true)
         .mut_args(|arg| arg.hide(false));
-    let mut page = options
-        .help_template("{before-help}\n\n{options}\n")
-        .before_help(INPUT);
-    page.render_long_help().to_string()
+    let page = options.help_template("{before-help}\n\n{options}\n");
+    whole(&page.before_help(INPUT))
 }

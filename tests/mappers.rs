@@ -61,10 +61,10 @@ fn first_lines_and_names() {
         lines[1..6],
         [
             "  global      one model of 15 of 16 images (COLMAP 4.2)",
-            "  incremental likely 8 + 4 + 4 images, 2 dropped; DSC_0429.JPG sees 8 of 30 points (simulated)",
+            "  incremental likely 8 + 4 + 4 images, 2 dropped; DSC_0429.JPG sees 8 points, needs 30 (simulated)",
             "  trust       the tracks determine 15 of 16 images if every pair is right (proved)",
-            "  look at     DSC_0428.JPG DSC_0431.JPG (23 inliers, 36.9 degrees), DSC_0431.JPG DSC_0433.JPG",
-            "              (183 inliers, 30.4 degrees) alone hold 3 and 13 images together",
+            "  look at     DSC_0428.JPG DSC_0431.JPG (23 inliers, 36.9 degrees), DSC_0431.JPG DSC_0433.JPG (183",
+            "              inliers, 30.4 degrees) alone hold 3 and 13 images together",
         ]
     );
     let all = verify(&["overview", "--all", path]);
@@ -93,6 +93,14 @@ fn forward_motion_is_uncertain() {
     let run = verify(&["overview", path.to_str().unwrap()]);
     let words = run.out.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(words.contains("uncertain: "), "{}", run.out);
+    // The warning is long: it is cut, and neither left out nor beyond the twelve lines.
+    assert!(
+        words.contains("warning at least 61 of 209 checkable pairs are off"),
+        "{}",
+        run.out
+    );
+    assert!(run.out.lines().count() <= 12, "{}", run.out);
+    assert!(words.contains("do verify contradictions "), "{}", run.out);
     assert!(words.contains("global one model of all 29 images"));
     assert!(words.contains("the tracks determine all 29 images if every pair is right (proved)"));
 }
@@ -427,7 +435,7 @@ fn a_panorama_determines_nothing() {
     );
     assert_eq!(without["configurations"], json!(["planar or panoramic"]));
     let run = verify(&["overview", path]);
-    let warned = "  warning     part 1, 10 images: no pair has a base line that shows (27 pairs: planar or\n";
+    let warned = "  warning     part 1, 10 images: no pair has a base line that shows (27 pairs: planar or panoramic),\n";
     assert!(run.out.contains(warned), "{}", run.out);
     assert!(
         words(&[path])

@@ -50,7 +50,7 @@ fn apart(model: &GlobalModel) -> String {
     }
 }
 
-/// "likely 8 + 4 + 4 images, 2 dropped; DSC_0434 sees 17 of 30 points (simulated)".
+/// "likely 8 + 4 + 4 images, 2 dropped; DSC_0434 sees 17 points, needs 30 (simulated)".
 pub(crate) fn incremental(foreseen: &Foreseen) -> String {
     let models = &foreseen.incremental;
     if models.refused {
@@ -61,7 +61,7 @@ pub(crate) fn incremental(foreseen: &Foreseen) -> String {
     let simulated = match unfit(models) {
         None => "(simulated)".to_owned(),
         Some(unfit) => format!(
-            "(simulated, uncertain: {unfit} of {} first pairs are unfit)",
+            "(simulated, uncertain: COLMAP can hardly begin with {unfit} of {} pairs)",
             models.starts.len()
         ),
     };
@@ -84,7 +84,7 @@ pub(crate) fn incremental(foreseen: &Foreseen) -> String {
     }
     if let Some(stop) = stop(models) {
         let Sees { image, sees, needs } = stop;
-        words += &format!("; {image} sees {sees} of {needs} points");
+        words += &format!("; {image} sees {sees} points, needs {needs}");
     }
     format!("{words} {simulated}")
 }

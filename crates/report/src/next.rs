@@ -62,25 +62,26 @@ pub(crate) fn written(command: &[String]) -> String {
     words.join(" ")
 }
 
+/// A command, and why.
+fn doing(words: &[impl ToString], why: &str) -> Do {
+    Do {
+        command: words.iter().map(ToString::to_string).collect(),
+        why: why.into(),
+    }
+}
+
 impl File<'_> {
     /// A command of ours about the file.
     fn verify(&self, verb: &str, after: &[&str], why: &str) -> Do {
         let words = ["verify", verb, self.path];
         let words = words.iter().chain(after).map(ToString::to_string);
-        let command = words.chain(options_of(self.options)).collect();
-        Do {
-            command,
-            why: why.into(),
-        }
+        doing(&Vec::from_iter(words.chain(options_of(self.options))), why)
     }
 
     /// A command of COLMAP about the database.
     fn colmap(&self, verb: &str, more: &[&str], why: &str) -> Do {
         let words = ["colmap", verb, "--database_path", self.path];
-        Do {
-            command: words.iter().chain(more).map(ToString::to_string).collect(),
-            why: why.into(),
-        }
+        doing(&[&words[..], more].concat(), why)
     }
 }
 
@@ -131,18 +132,14 @@ fn without_pairs(file: &File, found: &Overview, facts: &DatabaseFacts) -> Next {
 
 /// Focal lengths are guesses, each for an image of its own.
 fn guessed() -> Next {
-    let words = |words: &[&str], why: &str| Do {
-        command: words.iter().map(ToString::to_string).collect(),
-        why: why.into(),
-    };
     let new = ["--database_path", "shared.db"];
     let extract = ["--image_path", "images", "--ImageReader.single_camera", "1"];
     let extract = [&["colmap", "feature_extractor"][..], &new, &extract].concat();
     let matches = [&["colmap", "exhaustive_matcher"][..], &new].concat();
     Next {
         commands: vec![
-            words(&extract, "extracts features with one camera for all images"),
-            words(&matches, "matches them"),
+            doing(&extract, "extracts features with one camera for all images"),
+            doing(&matches, "matches them"),
         ],
         expect: "one focal length for all, which mappers find, if one camera took them at one zoom"
             .to_owned(),
@@ -173,12 +170,12 @@ fn to_match(file: &File, found: &Overview) -> Option<Next> {
     let of = found.wanted.of;
     let parts = match most == of {
         true => format!("{} in one part if they overlap", all_of(most, of)),
-        false => format!("{} in one part or more if they overlap", all_of(most, of)),
+        false => format!("{} in the largest part if they overlap", all_of(most, of)),
     };
     let now = most_of(found).filter(|(_, images, _)| *images < of);
     let now = now.map(|(mapper, images, _)| format!("; now {images} ({mapper} mapping)"));
-    let elsewhere = "match the pairs of that list in the program that wrote the file, with more features; or photograph \
-                     what lies between them";
+    let elsewhere = "photograph what lies between the parts, or match again with more features (Meshroom: Describer Density \
+                     high; ODM: --min-num-features 20000; OpenMVG: -p HIGH)";
     Some(Next {
         commands,
         expect: parts + &now.unwrap_or_default(),
@@ -211,6 +208,20 @@ fn most_of(found: &Overview) -> Option<(&'static str, usize, &'static str)> {
 fn map(file: &File, found: &Overview) -> Next {
     if found.mappers.is_none() {
         return of_no_database(file, found);
+    }
+    if found
+        .contradictions
+        .as_ref()
+        .is_some_and(|off| !off.is_good())
+    {
+        let words = ["verify", "contradictions", file.path].map(str::to_owned);
+        let why = "names the pairs to look at, and maps neighbours alone";
+        return Next {
+            commands: vec![doing(&words, why)],
+            by_hand: by_hand(found),
+            expect: "pairs to look at, and commands that map neighbours alone; a mapper may believe the wrong pairs"
+                .to_owned(),
+        };
     }
     let most = most_of(found).filter(|_| found.without_base_line.is_empty());
     let Some((name, images, mapper)) = most else {

@@ -31,7 +31,7 @@ const GAPS: usize = 3;
 
 /// Where words begin, and where lines end.
 const MARGIN: usize = 14;
-const WIDTH: usize = 96;
+const WIDTH: usize = 100;
 
 /// Everything that is found about one input; at least one of `pairs` and `tracks` is there.
 pub struct Overview<'a> {

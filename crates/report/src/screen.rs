@@ -33,37 +33,36 @@ pub fn write(out: &mut impl Write, found: &Overview, all: bool) -> io::Result<()
     ]);
     let mut end = Vec::new();
     outside(&mut end, found)?;
+    if let Some(words) = &found.next.by_hand {
+        wrapped(&mut end, "by hand", words)?;
+    }
     for (k, next) in found.next.commands.iter().enumerate() {
         let title = if k == 0 { "do" } else { "" };
         writeln!(end, "  {title:<12}{}", written(&next.command))?;
-    }
-    if let Some(words) = &found.next.by_hand {
-        wrapped(&mut end, "by hand", words)?;
     }
     wrapped(&mut end, "expect", &found.next.expect)?;
     let taken: usize = lead.iter().chain([&end]).map(|part| lines(part)).sum();
     for part in lead {
         out.write_all(&part)?;
     }
-    let doubts = found.doubts().into_iter().map(|doubt| {
-        let title = if doubt.refutes { "warning" } else { "look at" };
-        line(title, &doubt.words)
-    });
-    let doubts: Vec<Vec<u8>> = doubts.collect::<io::Result<_>>()?;
+    let doubts = found.doubts();
     let mut left = if all {
         usize::MAX
     } else {
         LINES.saturating_sub(taken + 1)
     };
-    let fits = doubts.iter().take_while(|words| {
-        let fits = lines(words) <= left;
-        left = left.saturating_sub(lines(words));
-        fits
-    });
-    let shown = fits.count();
-    doubts[..shown]
-        .iter()
-        .try_for_each(|words| out.write_all(words))?;
+    let mut shown = 0;
+    for doubt in &doubts {
+        let title = if doubt.refutes { "warning" } else { "look at" };
+        let words = line(title, &doubt.words)?;
+        // The heaviest warning is cut, and never left out.
+        if lines(&words) > left && (shown > 0 || !doubt.refutes) {
+            break;
+        }
+        out.write_all(cut(&words, left.max(1)).as_bytes())?;
+        left = left.saturating_sub(lines(&words));
+        shown += 1;
+    }
     out.write_all(&end)?;
     if all {
         return found.write_rest(out);
@@ -117,8 +116,16 @@ fn mappers_of(found: &Overview) -> io::Result<Vec<u8>> {
     match (found.no_model(), &found.mappers) {
         (Some(why), _) => wrapped(&mut out, "mappers", &why)?,
         (None, Some(foreseen)) => {
-            wrapped(&mut out, "global", &mappers::global(foreseen))?;
-            wrapped(&mut out, "incremental", &mappers::incremental(foreseen))?;
+            // Mappers do not notice that nothing fixes a base line.
+            let but = |models: usize| match &found.without_base_line[..] {
+                [_, ..] if models > 0 => "; not to be trusted: see the warning",
+                _ => "",
+            };
+            let global = mappers::global(foreseen) + but(foreseen.global.models.len());
+            let incremental = &foreseen.incremental;
+            let incremental = mappers::incremental(foreseen) + but(incremental.models.len());
+            wrapped(&mut out, "global", &global)?;
+            wrapped(&mut out, "incremental", &incremental)?;
         }
         (None, None) if found.tracks.is_some() => {
             wrapped(
@@ -143,7 +150,7 @@ fn trust(found: &Overview) -> String {
     };
     let condition = found.condition();
     let warned = match found.doubts().iter().any(|doubt| doubt.refutes) {
-        true => "mind the warning: ",
+        true => "doubtful: ",
         false => "",
     };
     let proved = text::strength(report.verdict.components_claim().strength);
@@ -160,7 +167,7 @@ fn trust(found: &Overview) -> String {
             )
         }
         Some(parts) if !parts.sizes.is_empty() => format!(
-            "no: the {what} leave {} free against each other ({proved})",
+            "no: the {what} let {} move against each other ({proved})",
             parts.brief()
         ),
         _ => format!("none: the {what} determine no images against each other"),
@@ -198,12 +205,20 @@ fn outside(out: &mut Vec<u8>, found: &Overview) -> io::Result<()> {
     match words.is_empty() {
         true => Ok(()),
         false => {
-            let lines = String::from_utf8_lossy(&line("outside", &words.join("; "))?).into_owned();
-            let mut two = lines.lines().take(OUTSIDE).collect::<Vec<_>>().join("\n");
-            if lines.lines().count() > OUTSIDE {
-                two += " ..";
-            }
-            writeln!(out, "{two}")
+            let words = line("outside", &words.join("; "))?;
+            out.write_all(cut(&words, OUTSIDE).as_bytes())
         }
     }
+}
+
+/// The first lines, and whether there are more.
+fn cut(text: &[u8], most: usize) -> String {
+    let text = String::from_utf8_lossy(text);
+    let first = text.lines().take(most).collect::<Vec<_>>().join("\n");
+    let more = if lines(text.as_bytes()) > most {
+        " ..\n"
+    } else {
+        "\n"
+    };
+    first + more
 }
