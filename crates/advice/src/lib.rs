@@ -45,7 +45,7 @@ pub use suggest::{
 };
 pub use task::Weak;
 pub use viewcert_formats::OtherPair;
-pub use weak::{WeakImage, WeakPair, Why, weak_images, weak_pairs};
+pub use weak::{Weakness, Why, weak_images, weak_pairs};
 
 /// What is known of pairs besides the graph: nothing, if both lists are empty.
 #[derive(Clone, Copy, Debug, Default)]

@@ -191,4 +191,9 @@ impl Alone {
             graph: Graph::new(nodes.len() as u32, edges).expect("edges of a graph"),
         }
     }
+
+    /// A pair of the part in the whole graph.
+    pub(crate) fn pair(&self, (a, b): (u32, u32)) -> (u32, u32) {
+        (self.nodes[a as usize], self.nodes[b as usize])
+    }
 }

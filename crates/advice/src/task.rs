@@ -10,7 +10,7 @@ use anyhow::{Context, Result};
 use std::collections::BTreeMap;
 use viewcert::decide::{Options, Question};
 use viewcert::watch::Watch;
-use viewcert::{Model, Strength, Value, Verdict};
+use viewcert::{Model, Value, Verdict};
 use viewcert_formats::NamedGraph;
 
 /// What a component may hang on.
@@ -134,32 +134,19 @@ impl<'a> Task<'a> {
     }
 
     pub(crate) fn weak(&self, what: Weak) -> Result<named::Weak> {
-        let graph = &self.input.graph;
-        let item = |what, component, why, strength: Strength| named::WeakItem {
-            what,
-            component: number(component),
-            why: words::why(why, &self.names),
-            strength: strength.name(),
+        let (graph, parts) = (&self.input.graph, &self.parts);
+        let found = match what {
+            Weak::Pairs => advice::weak_pairs(graph, parts, &self.options).context("--weak")?,
+            Weak::Images => {
+                advice::weak_images(graph, parts, &self.options).context("--weak=images")?
+            }
         };
-        let items = match what {
-            Weak::Pairs => advice::weak_pairs(graph, &self.parts, &self.options)
-                .context("--weak")?
-                .into_iter()
-                .map(|weak| {
-                    let (a, b) = weak.pair;
-                    let names = vec![self.names.of(a), self.names.of(b)];
-                    item(names, weak.component, weak.why, weak.strength)
-                })
-                .collect(),
-            Weak::Images => advice::weak_images(graph, &self.parts, &self.options)
-                .context("--weak=images")?
-                .into_iter()
-                .map(|weak| {
-                    let name = vec![self.names.of(weak.image)];
-                    item(name, weak.component, weak.why, weak.strength)
-                })
-                .collect(),
-        };
+        let items = found.into_iter().map(|weak| named::WeakItem {
+            what: weak.nodes.iter().map(|&v| self.names.of(v)).collect(),
+            component: number(weak.component),
+            why: words::why(weak.why, &self.names),
+            strength: weak.strength.name(),
+        });
         Ok(named::Weak {
             of: match (what, self.input.cameras) {
                 (Weak::Pairs, None) => "pairs",
@@ -171,8 +158,8 @@ impl<'a> Task<'a> {
                 Model::Projective => Value::FiniteSolvable.name(),
                 Model::Calibrated | Model::Affine => Value::Solvable.name(),
             },
-            items,
-            single_pairs: self.parts.links.len(),
+            items: items.collect(),
+            single_pairs: parts.links.len(),
         })
     }
 

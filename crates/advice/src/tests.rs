@@ -131,6 +131,24 @@ pub(crate) fn sequences(count: u64, nodes: u32) -> impl Iterator<Item = Graph> {
     })
 }
 
+/// Grids of `side` times `side` cameras: each is paired with its four neighbours, and some with more near ones.
+pub(crate) fn grids(count: u64, side: u32) -> impl Iterator<Item = Graph> {
+    (0..count).map(move |seed| {
+        let mut random = ChaCha8Rng::seed_from_u64(5000 + seed);
+        let more = random.random_range(10..60);
+        let mut pairs = Vec::new();
+        for (x, y) in (0..side * side).map(|v| (v % side, v / side)) {
+            for (dx, dy, percent) in [(1, 0, 100), (0, 1, 100), (1, 1, more), (2, 0, more)] {
+                let (i, j) = (x + dx, y + dy);
+                if i < side && j < side && random.random_range(0..100) < percent {
+                    pairs.push((y * side + x, j * side + i));
+                }
+            }
+        }
+        Graph::new(side * side, pairs).unwrap()
+    })
+}
+
 /// The question in a model.
 pub(crate) fn options(model: Model) -> Options {
     Options::default().question(Question::without_solutions(model))

@@ -30,24 +30,11 @@ pub enum Why {
     Counted((u32, u32)),
 }
 
-/// A pair without which its component falls apart.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct WeakPair {
-    /// The pair.
-    pub pair: (u32, u32),
-    /// Its component, by its place in the verdict.
-    pub component: usize,
-    /// Why.
-    pub why: Why,
-    /// How strong that is.
-    pub strength: Strength,
-}
-
-/// An image without which the rest of a component falls apart.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct WeakImage {
-    /// The image.
-    pub image: u32,
+/// A pair, or an image, without which its component, or the rest of it, falls apart.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Weakness {
+    /// The pair or the image.
+    pub nodes: Vec<u32>,
     /// The component, by its place in the verdict.
     pub component: usize,
     /// Why.
@@ -70,32 +57,16 @@ pub fn weak_pairs(
     graph: &Graph,
     parts: &Parts,
     options: &Options,
-) -> Result<Vec<WeakPair>, VerdictError> {
-    let edges = parts.edges(graph);
-    let of_part = parts.parts.par_iter().zip(&edges).map(|(part, edges)| {
-        let alone = Alone::new(&part.nodes, edges);
-        let found = pairs_of(&alone.graph, options)?;
-        let global = |(a, b): (u32, u32)| (alone.nodes[a as usize], alone.nodes[b as usize]);
-        let weak = found.into_iter().map(|(pair, why, strength)| WeakPair {
-            pair: global(pair),
-            component: part.component,
-            why: match why {
-                Why::Hangs(v) => Why::Hangs(alone.nodes[v as usize]),
-                Why::Counted(pair) => Why::Counted(global(pair)),
-                Why::Decided => Why::Decided,
-            },
-            strength,
-        });
-        Ok(weak.collect::<Vec<_>>())
-    });
-    let found: Result<Vec<Vec<WeakPair>>, VerdictError> = of_part.collect();
-    Ok(found?.concat())
+) -> Result<Vec<Weakness>, VerdictError> {
+    let find = |part: &Graph| pairs_of(part, options);
+    of_parts(graph, parts, find, |(a, b)| vec![a, b])
 }
 
 /// The weak images, by component and then increasing: the rest of the component, of three images or
 /// more, is not finite solvable without them.
 ///
-/// As [`weak_pairs`], on sets of images no two of which are a pair.
+/// One contraction clears many images that are no pairs of each other: all that it leaves in one body with their
+/// neighbours. The others are as [`weak_pairs`], in such sets.
 ///
 /// # Errors
 /// Those of [`decide`](viewcert::decide()).
@@ -103,23 +74,35 @@ pub fn weak_images(
     graph: &Graph,
     parts: &Parts,
     options: &Options,
-) -> Result<Vec<WeakImage>, VerdictError> {
+) -> Result<Vec<Weakness>, VerdictError> {
+    of_parts(graph, parts, |part| images_of(part, options), |v| vec![v])
+}
+
+/// What is found in each part by itself.
+fn of_parts<T>(
+    graph: &Graph,
+    parts: &Parts,
+    find: impl Fn(&Graph) -> Result<Vec<(T, Why, Strength)>, VerdictError> + Sync,
+    nodes: impl Fn(T) -> Vec<u32> + Sync,
+) -> Result<Vec<Weakness>, VerdictError> {
     let edges = parts.edges(graph);
     let of_part = parts.parts.par_iter().zip(&edges).map(|(part, edges)| {
         let alone = Alone::new(&part.nodes, edges);
-        let found = images_of(&alone.graph, options)?;
-        let weak = found.into_iter().map(|(image, why, strength)| WeakImage {
-            image: alone.nodes[image as usize],
+        let global = |v: u32| alone.nodes[v as usize];
+        let weak = find(&alone.graph)?.into_iter();
+        let weak = weak.map(|(what, why, strength)| Weakness {
+            nodes: nodes(what).into_iter().map(global).collect(),
             component: part.component,
             why: match why {
-                Why::Hangs(v) => Why::Hangs(alone.nodes[v as usize]),
-                why => why,
+                Why::Hangs(v) => Why::Hangs(global(v)),
+                Why::Counted(pair) => Why::Counted(alone.pair(pair)),
+                Why::Decided => why,
             },
             strength,
         });
-        Ok(weak.collect::<Vec<_>>())
+        Ok(weak.collect())
     });
-    let found: Result<Vec<Vec<WeakImage>>, VerdictError> = of_part.collect();
+    let found: Result<Vec<Vec<Weakness>>, VerdictError> = of_part.collect();
     Ok(found?.concat())
 }
 
@@ -197,6 +180,13 @@ fn bodies_of_nodes(contraction: &Contraction, nodes: usize) -> Lists {
     Lists::group(nodes, of_node)
 }
 
+/// Whether one body holds all of some nodes.
+fn in_one_body(bodies: &Lists, nodes: &[u32]) -> bool {
+    let of = |&v: &u32| bodies.of(v as usize);
+    let mut first = of(&nodes[0]).iter();
+    first.any(|body| nodes.iter().all(|v| of(v).binary_search(body).is_ok()))
+}
+
 /// The weak images of a component with three nodes or more, increasing.
 fn images_of(graph: &Graph, options: &Options) -> Result<Vec<(u32, Why, Strength)>, VerdictError> {
     let n = graph.nodes() as u32;
@@ -214,7 +204,7 @@ fn images_of(graph: &Graph, options: &Options) -> Result<Vec<(u32, Why, Strength
             None => open.push(v),
         }
     }
-    for set in independent(graph, open) {
+    for set in independent(graph, left_out::images_not_cleared(graph, open, options)?) {
         let found = decisions::weak_images(graph, set, options)?.into_iter();
         weak.extend(found.map(|(v, strength)| (v, Why::Decided, strength)));
     }

@@ -6,9 +6,9 @@
 //! halves lie apart: pairs are taken in the order in which a search comes to them, so that where
 //! separators are small the graph without a half is a few components.
 
-use super::{Pair, Why, bodies_of_nodes, final_nodes};
+use super::{Pair, Why, bodies_of_nodes, final_nodes, in_one_body};
 use crate::condensation::{Condensation, terminals, without};
-use crate::parts::{Alone, Parts};
+use crate::parts::{Alone, Part, Parts};
 use std::collections::VecDeque;
 use viewcert::contract::Contraction;
 use viewcert::decide::{Options, Value, VerdictError, decide};
@@ -100,22 +100,16 @@ fn search_images(
         return Ok(vec![(first, verdict.value_claim().strength)]);
     }
     let parts = Parts::new(&left.graph, &verdict);
-    let name = |v: u32| left.nodes[v as usize];
-    let bodies = parts
-        .parts
-        .iter()
-        .map(|part| part.nodes.iter().map(|&v| name(v)).collect());
-    let bodies: Vec<Vec<u32>> = bodies.collect();
+    let named = |part: &Part| part.nodes.iter().map(|&v| left.nodes[v as usize]).collect();
+    let bodies: Vec<Vec<u32>> = parts.parts.iter().map(named).collect();
     let bodies: Vec<&[u32]> = bodies.iter().map(Vec::as_slice).collect();
-    let links = parts.links.iter().map(|&((a, b), _)| (name(a), name(b)));
-    let pairs = links.chain(back);
-    let ends = pairs.clone().flat_map(|(a, b)| [a, b]);
-    let small = Condensation::new(terminals(&bodies, ends), pairs, std::iter::empty());
-    let moved = open.iter().map(|&(here, image)| {
-        let here = small.number(here);
-        (here.expect("a node with its pairs"), image)
-    });
-    let moved: Vec<OpenImage> = moved.collect();
+    let links = parts.links.iter().map(|&(pair, _)| left.pair(pair));
+    let small = chained(&bodies, links.chain(back));
+    let at = |here| small.number(here).expect("a node with its pairs");
+    let moved: Vec<OpenImage> = open
+        .iter()
+        .map(|&(here, image)| (at(here), image))
+        .collect();
     let (one, other) = moved.split_at(moved.len() / 2);
     let [one, other] = both([one, other], |half| {
         search_images(&small.graph, half, options)
@@ -188,13 +182,10 @@ fn condensed(
     let rest = without(graph, &gone);
     let contraction = Contraction::new(&rest, options.question.model);
     let of_nodes = bodies_of_nodes(&contraction, graph.nodes());
-    open.retain(|pair| {
-        let other = of_nodes.of(pair.here.1 as usize);
-        let mut one = of_nodes.of(pair.here.0 as usize).iter();
-        !one.any(|body| other.binary_search(body).is_ok())
-    });
+    open.retain(|pair| !in_one_body(&of_nodes, &[pair.here.0, pair.here.1]));
     let bodies: Vec<&[u32]> = final_nodes(&contraction).collect();
-    let small = chained(&bodies, &contraction.loose, open);
+    let here = open.iter().map(|pair| pair.here);
+    let small = chained(&bodies, contraction.loose.iter().copied().chain(here));
     if small.nodes.len() <= MOST_NODES + NODES_EACH * open.len() {
         return Ok(small);
     }
@@ -202,19 +193,14 @@ fn condensed(
     let parts = Parts::new(&rest, &verdict);
     open.retain(|pair| parts.common(pair.here.0, pair.here.1).is_none());
     let bodies: Vec<&[u32]> = parts.parts.iter().map(|part| &part.nodes[..]).collect();
-    let links: Vec<Pair> = parts.links.iter().map(|&(pair, _)| pair).collect();
-    Ok(chained(&bodies, &links, open))
+    let links = parts.links.iter().map(|&(pair, _)| pair);
+    let here = open.iter().map(|pair| pair.here);
+    Ok(chained(&bodies, links.chain(here)))
 }
 
-fn chained(bodies: &[&[u32]], links: &[Pair], open: &[Open]) -> Condensation {
-    let pairs = || {
-        links
-            .iter()
-            .copied()
-            .chain(open.iter().map(|pair| pair.here))
-    };
-    let ends = pairs().flat_map(|(a, b)| [a, b]);
-    Condensation::new(terminals(bodies, ends), pairs(), std::iter::empty())
+fn chained(bodies: &[&[u32]], pairs: impl Iterator<Item = Pair> + Clone) -> Condensation {
+    let ends = pairs.clone().flat_map(|(a, b)| [a, b]);
+    Condensation::new(terminals(bodies, ends), pairs, std::iter::empty())
 }
 
 /// One pair, if it is weak; and those of others that can take its place in a count. The rigid parts without a weak

@@ -1,16 +1,19 @@
-//! Clearing pairs by nodes that are left out together.
+//! Clearing pairs and images by nodes that are left out together.
 //!
 //! Let a node have three pairs with a body that stands without the node. Without any one of the
 //! three the node joins the body by the other two (docs/theory.md, Theorem 4.1, rule 3), so none of
 //! them is weak. Nodes that are pairwise no pairs can be left out at once, as they are no part of
 //! each other's bodies: in a camera-point graph half of all points. So two contractions clear
 //! the observations of points with three views and more where tracks abound.
+//!
+//! A node whose neighbours all lie in one such body is not weak: motions of the rest move that body as a whole,
+//! and the node along with it.
 
-use super::{Pair, bodies_of_nodes, check};
+use super::{Pair, bodies_of_nodes, check, in_one_body, independent};
 use viewcert::Graph;
 use viewcert::contract::Contraction;
 use viewcert::decide::{Options, VerdictError};
-use viewcert::graph::Adjacency;
+use viewcert::graph::{Adjacency, Lists};
 
 /// In how many shares nodes are left out: halves, and what that does not clear in eighths.
 const SHARES: [usize; 2] = [2, 8];
@@ -18,7 +21,44 @@ const SHARES: [usize; 2] = [2, 8];
 /// Pairs with a body that clear each other.
 const ENOUGH: usize = 3;
 
+/// In how many shares images are left out if less than half are cleared when they are left out at once.
+const THIN: usize = 8;
+
 const NONE: u32 = u32::MAX;
+
+/// Those of some images, given increasing, that are not cleared so: by few of them at a time if there is no body
+/// without many. A contraction for each set and share, again for the rest as long as half are cleared.
+///
+/// # Errors
+/// If the work is stopped.
+pub(super) fn images_not_cleared(
+    graph: &Graph,
+    mut images: Vec<u32>,
+    options: &Options,
+) -> Result<Vec<u32>, VerdictError> {
+    let neighbours = Adjacency::new(graph);
+    let mut shares = 1;
+    loop {
+        let before = images.len();
+        let mut left = Vec::new();
+        for set in independent(graph, images) {
+            for share in 0..shares.min(set.len()) {
+                check(graph, options)?;
+                let out = set.iter().skip(share).step_by(shares).copied();
+                let bodies = bodies_without(graph, out.clone(), options);
+                left.extend(out.filter(|&v| !in_one_body(&bodies, neighbours.neighbours(v))));
+            }
+        }
+        left.sort_unstable();
+        images = left;
+        shares = match shares {
+            _ if images.is_empty() => return Ok(images),
+            _ if 2 * images.len() <= before => 1,
+            1 => THIN,
+            _ => return Ok(images),
+        };
+    }
+}
 
 /// Those of some pairs of a graph that are not cleared so. Ten contractions of the graph, at most.
 ///
@@ -73,13 +113,7 @@ fn not_cleared_without(
     mut pairs: Vec<Pair>,
     options: &Options,
 ) -> Vec<Pair> {
-    let mut is_out = vec![false; graph.nodes()];
-    out.clone().for_each(|v| is_out[v as usize] = true);
-    let edges = graph.edges().iter().copied();
-    let edges = edges.filter(|&(a, b)| !is_out[a as usize] && !is_out[b as usize]);
-    let rest = Graph::new(graph.nodes() as u32, edges).expect("edges of a graph");
-    let contraction = Contraction::new(&rest, options.question.model);
-    let bodies = bodies_of_nodes(&contraction, graph.nodes());
+    let bodies = bodies_without(graph, out.clone(), options);
     // For every node left out the body that it has most pairs with, if these are enough.
     let mut anchor = vec![NONE; graph.nodes()];
     let mut at = Vec::new();
@@ -99,4 +133,15 @@ fn not_cleared_without(
     };
     pairs.retain(|&(a, b)| !holds(a, b) && !holds(b, a));
     pairs
+}
+
+/// For every node the final bodies of the graph without some nodes.
+fn bodies_without(graph: &Graph, out: impl Iterator<Item = u32>, options: &Options) -> Lists {
+    let mut is_out = vec![false; graph.nodes()];
+    out.for_each(|v| is_out[v as usize] = true);
+    let edges = graph.edges().iter().copied();
+    let edges = edges.filter(|&(a, b)| !is_out[a as usize] && !is_out[b as usize]);
+    let rest = Graph::new(graph.nodes() as u32, edges).expect("edges of a graph");
+    let contraction = Contraction::new(&rest, options.question.model);
+    bodies_of_nodes(&contraction, graph.nodes())
 }

@@ -1,8 +1,12 @@
 use super::*;
 use crate::condensation::without;
-use crate::tests::{clusters, graphs, options, sequences, together, tracks, verdict};
+use crate::tests::{clusters, graphs, grids, options, sequences, together, tracks, verdict};
 use std::collections::BTreeSet;
 use viewcert::Model;
+
+fn pair(weak: &Weakness) -> Pair {
+    (weak.nodes[0], weak.nodes[1])
+}
 
 /// Pairs and images, each with its component.
 type Places = (Vec<(Pair, usize)>, Vec<(u32, usize)>);
@@ -15,8 +19,8 @@ fn found_and_expected(graph: &Graph, model: Model) -> [Places; 2] {
     let pairs = weak_pairs(graph, &parts, &options(model)).unwrap();
     let images = weak_images(graph, &parts, &options(model)).unwrap();
     let found = (
-        pairs.iter().map(|weak| (weak.pair, weak.component)),
-        images.iter().map(|weak| (weak.image, weak.component)),
+        pairs.iter().map(|weak| (pair(weak), weak.component)),
+        images.iter().map(|weak| (weak.nodes[0], weak.component)),
     );
     let mut expected = (Vec::new(), Vec::new());
     for (part, edges) in parts.parts.iter().zip(parts.edges(graph)) {
@@ -57,7 +61,10 @@ fn weak_is_what_falls_apart_when_it_is_left_out() {
 fn a_sequence_hangs_on_what_it_falls_apart_without() {
     let (mut weak, mut images, mut all) = (0, 0, 0);
     for model in Model::ALL {
-        for graph in sequences(12, 100).chain(sequences(40, 30)) {
+        for graph in sequences(12, 100)
+            .chain(sequences(40, 30))
+            .chain(grids(9, 6))
+        {
             let [found, expected] = found_and_expected(&graph, model);
             assert_eq!(found, expected, "{model} {graph:?}");
             weak += expected.0.len();
@@ -114,7 +121,7 @@ fn all_pairs_of_a_thin_sequence_are_weak() {
     assert!(found.iter().all(|weak| weak.strength == Strength::Proof));
     let images = weak_images(&graph, &parts, &options(Model::Projective)).unwrap();
     // Without the first or the last image the rest is a sequence.
-    let images: BTreeSet<u32> = images.iter().map(|weak| weak.image).collect();
+    let images: BTreeSet<u32> = images.iter().map(|weak| weak.nodes[0]).collect();
     assert_eq!(images, (1..n - 1).collect());
 }
 
@@ -130,10 +137,10 @@ fn the_pairs_of_a_tight_joint_are_weak() {
     assert_eq!(verdict.components.len(), 1);
     let parts = Parts::new(&graph, &verdict);
     let found = weak_pairs(&graph, &parts, &options(Model::Projective)).unwrap();
-    let found: Vec<Pair> = found.iter().map(|weak| weak.pair).collect();
+    let found: Vec<Pair> = found.iter().map(pair).collect();
     assert_eq!(found, pairs);
     let images = weak_images(&graph, &parts, &options(Model::Projective)).unwrap();
-    let images: Vec<u32> = images.iter().map(|weak| weak.image).collect();
+    let images: Vec<u32> = images.iter().map(|weak| weak.nodes[0]).collect();
     assert_eq!(images, [0, 1, 2, 6, 7, 8]);
 }
 
@@ -149,7 +156,46 @@ fn where_tracks_abound_all_observations_are_cleared_by_leaving_out_points() {
     let verdict = verdict(&graph, Model::Calibrated);
     let parts = Parts::new(&graph, &verdict);
     let found = weak_pairs(&graph, &parts, &options(Model::Calibrated)).unwrap();
-    let found: Vec<(Pair, Why)> = found.iter().map(|weak| (weak.pair, weak.why)).collect();
+    let found: Vec<(Pair, Why)> = found.iter().map(|weak| (pair(weak), weak.why)).collect();
     let hangs = Why::Hangs(18);
     assert_eq!(found, [((0, 18), hangs), ((1, 18), hangs)]);
+}
+
+/// Images that contraction clears are none that decisions name, which look at all images on their own: on grids,
+/// sequences and clusters.
+#[test]
+fn cleared_images_are_those_that_decisions_clear() {
+    let (mut weak, mut cleared) = (0, 0);
+    for model in Model::ALL {
+        let small = grids(20, 5).chain(sequences(20, 60)).chain(clusters(60));
+        for graph in small.chain(grids(4, 20)) {
+            let verdict = verdict(&graph, model);
+            let parts = Parts::new(&graph, &verdict);
+            for (part, edges) in parts.parts.iter().zip(parts.edges(&graph)) {
+                let alone = Alone::new(&part.nodes, &edges).graph;
+                let neighbours = Adjacency::new(&alone);
+                let (n, options) = (alone.nodes() as u32, options(model));
+                let hangs = |v| {
+                    neighbours
+                        .neighbours(v)
+                        .iter()
+                        .any(|&u| neighbours.degree(u) == 2)
+                };
+                let open: Vec<u32> = (0..n).filter(|&v| n > 3 && !hangs(v)).collect();
+                let sets = independent(&alone, open.clone()).into_iter();
+                let decided =
+                    sets.map(|set| decisions::weak_images(&alone, set, &options).unwrap());
+                let mut decided = decided.collect::<Vec<_>>().concat();
+                decided.sort_unstable_by_key(|&(v, _)| v);
+                let found = images_of(&alone, &options).unwrap().into_iter();
+                let found = found.filter(|(_, why, _)| *why == Why::Decided);
+                let found: Vec<_> = found.map(|(v, _, strength)| (v, strength)).collect();
+                assert_eq!(found, decided, "{model} {alone:?}");
+                let left = left_out::images_not_cleared(&alone, open.clone(), &options).unwrap();
+                weak += decided.len();
+                cleared += open.len() - left.len();
+            }
+        }
+    }
+    assert!(weak > 1000 && cleared > 5 * weak, "{weak} {cleared}");
 }
