@@ -143,12 +143,9 @@ pub(super) fn merge(session: &Session, arguments: &MergeArguments) -> Result<u8>
         "options say how a database is read, and none is named; leave them out, or name the database after \
          both models"
     );
-    let asked = merge::Asked {
-        models: [&arguments.one, &arguments.other],
-        database: arguments.database.as_deref(),
-        reading: arguments.input.reading(),
-    };
-    let done = asked.of(session, |report| {
+    let models = [&*arguments.one, &*arguments.other];
+    let read = (arguments.database.as_deref(), &arguments.input.reading());
+    let done = merge::merge(session, models, read, |report| {
         outputs::answer(
             arguments.json,
             report.merge.is_good(),
@@ -156,7 +153,7 @@ pub(super) fn merge(session: &Session, arguments: &MergeArguments) -> Result<u8>
             |out| report.write(out),
         )
     });
-    let [one, other] = asked.models.map(Path::display);
+    let [one, other] = models.map(Path::display);
     recorded(arguments.json, format!("{one} and {other}").as_ref(), done)
 }
 

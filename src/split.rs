@@ -51,25 +51,22 @@ fn taken_apart(session: &Session, arguments: &SplitArguments) -> Result<u8> {
     let (path, folder) = (&arguments.model, &arguments.folder);
     split::check(folder, path)?;
     let least = arguments.min_views as usize;
-    let model = match read_model(session, path) {
-        Ok(model) if !model.points.is_empty() => model,
-        // A model without points, and a folder that is none, are refused as they are everywhere.
-        other => match read_graphs(path, &ReadOptions::default()).next() {
-            Some(Err(error)) if path.is_dir() && error.problem.kind != Kind::Model => {
-                return Err(error.into());
-            }
-            _ => other?,
-        },
-    };
+    // A model without points, and a folder that is none, are refused as they are everywhere.
+    if path.is_dir()
+        && let Some(Err(error)) = read_graphs(path, &ReadOptions::default()).next()
+        && error.problem.kind != Kind::Model
+    {
+        return Err(error.into());
+    }
+    let model = read_model(session, path)?;
     let name = path.display();
+    ensure!(
+        model.images.len() > 1,
+        "{name}: the model has one image, and a part has two or more; name another model"
+    );
     let posed = model.posed(least, !arguments.no_rigs);
     let posed =
         posed.map_err(|why| anyhow!("{name}/{why}; map again, or leave it out of the model"))?;
-    ensure!(
-        posed.images.len() > 1,
-        "{name}: the model has {}, and a part has two or more; name another model",
-        counted(posed.images.len(), "image")
-    );
     let held = session.watched(|watch| held(&posed.exact(), watch));
     let held = held.with_context(|| name.to_string())?;
     session.doing(format!(
@@ -80,27 +77,11 @@ fn taken_apart(session: &Session, arguments: &SplitArguments) -> Result<u8> {
     let found = split::split(session.outputs(), folder, &model, &posed, &held.parts);
     session.hide();
     let (softness, found) = (softness?, found?);
-    let mut notes = Vec::new();
-    let short = model.points.len() - posed.points.len();
-    if short > 0 {
-        let advice = match posed.points.is_empty() {
-            true => "; say --min-views 2 to count them",
-            false => "",
-        };
-        notes.push(format!(
-            "not counted: {} in fewer than {least} images (--min-views){advice}",
-            counted(short, "point")
-        ));
-    }
-    if posed.unplaced > 0 {
-        notes.push(format!(
-            "the rig does not place the sensors of {}: each moves by itself",
-            counted(posed.unplaced, "image")
-        ));
-    }
+    let unplaced = counted(posed.unplaced, "image");
+    let note = format!("the rig does not place the sensors of {unplaced}: each moves by itself");
     let report = SplitReport {
         model: name.to_string(),
-        notes,
+        notes: (posed.unplaced > 0).then_some(note).into_iter().collect(),
         posed: &posed,
         least,
         free: &Free::of(&held, &model, &posed),

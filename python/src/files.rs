@@ -95,12 +95,8 @@ pub(crate) fn merge(
 ) -> PyResult<Said> {
     let reading = reading.options()?;
     asked(py, move |session| {
-        let wish = viewcert_ask::merge::Asked {
-            models: [&one, &other],
-            database: database.as_deref(),
-            reading,
-        };
-        wish.of(session, |report| {
+        let read = (database.as_deref(), &reading);
+        viewcert_ask::merge::merge(session, [&one, &other], read, |report| {
             said(|out| report.write_json(out), |out| report.write(out))
         })
     })

@@ -66,7 +66,6 @@ def take_apart(verify, scene, model, folder, as_text, tally):
         read = pycolmap.Reconstruction(os.path.join(parts, part["folder"]))
         names = {image.name for image in read.images.values() if image.has_pose}
         assert names == set(part["images"]) and read.num_points3D() == part["points"]
-        assert read.compute_num_observations() == part["observations"]
         # Two cameras agree with any two.
         misfits.append(left(scene, read) if len(names) > 2 else 0.0)
     tally.parts += len(misfits)

@@ -78,14 +78,6 @@ pub fn images(input: &NamedGraph, file: &Path) -> Result<Vec<u32>> {
     Ok(images.into_iter().collect())
 }
 
-/// How many images are in several lists.
-pub fn shared(lists: &[List]) -> usize {
-    let mut all: Vec<u32> = lists.iter().flat_map(|list| list.images.clone()).collect();
-    all.sort_unstable();
-    let equal = all.chunk_by(|a, b| a == b);
-    equal.filter(|lists| lists.len() > 1).count()
-}
-
 /// Parts of lists that overlaps fix against each other.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Fixed {

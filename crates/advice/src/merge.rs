@@ -197,9 +197,9 @@ impl<'a> Two<'a> {
         let freedom = match (shared_places, placed.len()) {
             (0, 0) => 6 + scale,
             (0, _) => match span(0).min(span(1)) {
-                Span::Place => 3 + scale,
-                Span::Line => 1,
-                Span::Plane => 0,
+                0 => 3 + scale,
+                1 => 1,
+                _ => 0,
             },
             (1, 0) => scale,
             _ => 0,
@@ -219,33 +219,20 @@ impl<'a> Two<'a> {
     }
 }
 
-/// What points lie in together, if there are any.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Span {
-    Place,
-    Line,
-    Plane,
-}
-
-/// What points lie in. Rounding moves the sine of an angle by less than a billionth of [`OFF_LINE`].
-fn span(points: Vec<Vector>) -> Span {
-    let arms: Vec<Vector> = points
-        .iter()
-        .map(|&point| minus(point, points[0]))
-        .collect();
+/// The dimension of what points lie in: a place, a line, or more. Rounding moves the sine of an angle by less than a
+/// billionth of [`OFF_LINE`].
+fn span(points: Vec<Vector>) -> usize {
+    let arms = points.iter().map(|&point| minus(point, points[0]));
+    let arms: Vec<Vector> = arms.collect();
     // The farthest point from the first, and one that is off the line through both.
-    let longest = arms
-        .iter()
-        .max_by(|u, v| dot(**u, **u).total_cmp(&dot(**v, **v)));
-    let Some(&u) = longest.filter(|u| dot(**u, **u) > 0.0) else {
-        return Span::Place;
+    let square = |v: &Vector| dot(*v, *v);
+    let longest = arms.iter().max_by(|u, v| square(u).total_cmp(&square(v)));
+    let Some(&u) = longest.filter(|u| square(u) > 0.0) else {
+        return 0;
     };
     let is_off = |v: &Vector| {
-        let both = dot(u, u) * dot(*v, *v);
+        let both = square(&u) * square(v);
         both > 0.0 && dot(u, *v).powi(2) < (1.0 - OFF_LINE * OFF_LINE) * both
     };
-    match arms.iter().any(is_off) {
-        true => Span::Plane,
-        false => Span::Line,
-    }
+    1 + usize::from(arms.iter().any(is_off))
 }

@@ -35,8 +35,6 @@ pub struct Piece {
     pub images: Vec<String>,
     /// How many points it has.
     pub points: usize,
-    /// How many views these have.
-    pub observations: usize,
 }
 
 /// What is free between two parts.
@@ -116,25 +114,20 @@ pub fn split(
 ) -> Result<Split> {
     let first = posed.first_at_place();
     let names = |images: &[u32]| {
-        let names = images
-            .iter()
-            .map(|&v| model.images[v as usize].name.to_string());
-        let mut names: Vec<String> = names.collect();
+        let name = |&v: &u32| model.images[v as usize].name.to_string();
+        let mut names: Vec<String> = images.iter().map(name).collect();
         names.sort();
         names
     };
     let inside: BTreeSet<u32> = parts.iter().flatten().copied().collect();
     let outside = (0..model.images.len() as u32).filter(|v| !inside.contains(v));
-    let digits = parts.len().to_string().len().max(3);
     let (mut written, mut points) = (Vec::new(), BTreeSet::new());
     outputs.folder(folder, |new| {
         for (number, images) in (1..).zip(parts) {
-            let places = images
-                .iter()
-                .map(|&v| (model.images[v as usize].id, first[v as usize] as u32));
-            let places: HashMap<u32, u32> = places.collect();
+            let place = |&v: &u32| (model.images[v as usize].id, first[v as usize] as u32);
+            let places: HashMap<u32, u32> = images.iter().map(place).collect();
             let part = model.of_images(|image| places.get(&image.id).copied());
-            let folder = format!("{number:0digits$}");
+            let folder = format!("{number:03}");
             fs::create_dir(new.join(&folder))?;
             part.write(&new.join(&folder))?;
             points.extend(part.points.iter().map(|point| point.id));
@@ -142,7 +135,6 @@ pub fn split(
                 folder,
                 images: names(images),
                 points: part.points.len(),
-                observations: part.points.iter().map(|point| point.track.len()).sum(),
             });
         }
         Ok(())

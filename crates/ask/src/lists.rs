@@ -1,7 +1,7 @@
 //! Whether lists of images are whole, and what their overlaps fix.
 
 use super::HowRead;
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, ensure};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
@@ -37,8 +37,12 @@ impl Asked<'_> {
     ) -> Result<T> {
         let start = Instant::now();
         session.reading(self.graph);
-        let mut input = self.first()?;
+        let mut graphs = read_graphs(self.graph, &self.reading.pairs);
+        let (first, is_one) = (graphs.next(), graphs.next().is_none());
         session.hide();
+        let path = self.graph.display();
+        let mut input = first.with_context(|| format!("{path}: the file holds no graph"))??;
+        ensure!(is_one, "{path}: several graphs; name a file with one");
         if input.database.is_some() {
             input.read.options = self.reading.tracks.given();
         } else {
@@ -51,29 +55,10 @@ impl Asked<'_> {
         let fixed = session.watched(|watch| lists::fixed(&lists, images, seed, watch.clone()));
         say(&ListReport {
             fixed: fixed.with_context(|| input.name.clone())?,
-            shared: lists::shared(&lists),
             input: &input,
             lists,
             time: start.elapsed(),
         })
-    }
-
-    /// The one graph of the file.
-    fn first(&self) -> Result<NamedGraph> {
-        let path = self.graph.display();
-        let mut graphs = read_graphs(self.graph, &self.reading.pairs);
-        let input = match graphs.next() {
-            Some(Err(error)) if error.problem.holds_tracks() => bail!(
-                "{path}: this holds points that were found, not the matches that they came from; name the \
-                 database"
-            ),
-            input => input.with_context(|| format!("{path}: the file holds no graph"))??,
-        };
-        ensure!(
-            graphs.next().is_none(),
-            "{path}: there are several graphs, and lists are about one"
-        );
-        Ok(input)
     }
 
     /// Reads a list, and decides what its images determine by themselves.

@@ -25,15 +25,6 @@ const MOST: usize = 1 << 28;
 /// Unknowns of a unit: turning and sliding.
 const UNIT: usize = 6;
 
-/// How soft a model is.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Softness {
-    /// The largest change of an observation in the softest motion of images, in pixels.
-    pub pixels: f64,
-    /// Points that can move as far with less than [`ROUNDING`].
-    pub soft_points: usize,
-}
-
 /// A symmetric matrix: of each row the column of the first entry, and all from there to the diagonal.
 type Rows = Vec<(usize, Vec<f64>)>;
 /// What moves an observation, by rows.
@@ -57,7 +48,6 @@ struct Seen {
     of_units: Vec<[[f64; UNIT]; 2]>,
     /// An orthonormal basis of what the point itself can change.
     own: Columns,
-    is_soft: bool,
 }
 
 impl Seen {
@@ -83,12 +73,12 @@ impl Seen {
     }
 }
 
-/// How soft a model is, with a similarity that has a scale or has none. Nothing where the matrix is too large. O(N^3)
-/// for N images, less what stands before the first entries of rows.
+/// The largest change of an observation in the softest motion of images, in pixels; a similarity has a scale or has
+/// none. Nothing where the matrix is too large. O(N^3) for N images, less what stands before the first entries of rows.
 ///
 /// # Errors
 /// No convergence.
-pub fn softness(posed: &Posed, is_scaled: bool) -> Result<Option<Softness>, AuditError> {
+pub fn softness(posed: &Posed, is_scaled: bool) -> Result<Option<f64>, AuditError> {
     let scene = Scene::new(posed);
     let points: Vec<usize> = (0..posed.points.len()).collect();
     let seen: Result<Vec<Seen>, AuditError> = points
@@ -97,10 +87,7 @@ pub fn softness(posed: &Posed, is_scaled: bool) -> Result<Option<Softness>, Audi
         .collect();
     let seen = seen?;
     if seen.iter().all(|point| point.units.is_empty()) {
-        return Ok(Some(Softness {
-            pixels: 0.0,
-            soft_points: seen.len(),
-        }));
+        return Ok(Some(0.0));
     }
     let Some((matrix, place)) = scene.matrix(&seen)? else {
         return Ok(None);
@@ -151,10 +138,7 @@ pub fn softness(posed: &Posed, is_scaled: bool) -> Result<Option<Softness>, Audi
         let change = twos.iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max);
         (moved > 1e-9).then(|| SHARE * change / moved)
     });
-    Ok(Some(Softness {
-        pixels: pixels.fold(f64::INFINITY, f64::min),
-        soft_points: seen.iter().filter(|point| point.is_soft).count(),
-    }))
+    Ok(Some(pixels.fold(f64::INFINITY, f64::min)))
 }
 
 impl Scene {
@@ -258,7 +242,6 @@ impl Scene {
                 units,
                 of_units,
                 own: Vec::new(),
-                is_soft: true,
             });
         }
         let columns = (0..3).map(|k| rows.iter().map(|row| row[k]).collect());
@@ -274,8 +257,6 @@ impl Scene {
             moved
         });
         let moved: Columns = moved.collect();
-        let (twos, _) = moved[0].as_chunks::<2>();
-        let change = twos.iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max);
         let mut own: Columns = moved
             .into_iter()
             .zip(&values)
@@ -288,7 +269,6 @@ impl Scene {
             units,
             of_units,
             own,
-            is_soft: SHARE * change < ROUNDING,
         })
     }
 

@@ -2,7 +2,7 @@
 
 use super::json::{GraphLine, present, write_line};
 use super::{condition, counted, head};
-use crate::shown::{row, some, time};
+use crate::shown::{row, several, some, time};
 use serde_json::json;
 use std::io::{self, Write};
 use std::time::Duration;
@@ -17,8 +17,6 @@ pub struct ListReport<'a> {
     pub input: &'a NamedGraph,
     /// The lists, in the order in which they were named.
     pub lists: Vec<List>,
-    /// How many images are in several lists.
-    pub shared: usize,
     /// What overlaps fix.
     pub fixed: Vec<Fixed>,
     /// How long it took.
@@ -48,8 +46,6 @@ impl ListReport<'_> {
             let words = format!("{}: {images}, {found}", list.file);
             row(out, &format!("list {k}"), words)?;
         }
-        let shared = counted(self.shared, "image");
-        row(out, "overlap", format!("{shared} in several lists"))?;
         row(out, "scale", self.scale(&condition))?;
         time(out, self.time)
     }
@@ -81,22 +77,14 @@ impl ListReport<'_> {
         let names = |part: &Vec<u32>| part.iter().map(|&v| self.input.labels.label(v)).collect();
         let lists = self.lists.iter().map(|list| {
             let parts: Vec<Vec<_>> = list.parts.iter().map(names).collect();
-            let images = list.images.len();
-            json!({ "file": list.file, "images": images, "whole": list.is_whole(), "parts": parts })
+            json!({ "file": list.file, "images": list.images.len(), "whole": list.is_whole(), "parts": parts })
         });
-        let by = if self.input.database.is_some() {
-            "tracks"
-        } else {
-            "pairs"
-        };
         let condition = condition::of_photographs(self.input, Model::Calibrated);
         let line = present(json!({
             "graph": GraphLine::of(self.input),
             "read": self.input.read,
             "notes": self.input.notes,
-            "by": by,
             "lists": lists.collect::<Vec<_>>(),
-            "shared_images": self.shared,
             "fixed": self.fixed,
             "determined": self.is_determined(),
             "condition": condition.filter(|_| self.lists.iter().any(List::is_whole)),
@@ -108,8 +96,8 @@ impl ListReport<'_> {
 
 /// The parts of a list that is not whole.
 fn parts(list: &List) -> String {
-    let sizes = list.parts.iter().map(|part| part.len().to_string());
-    let sizes = some(&sizes.collect::<Vec<_>>(), ", ");
+    let sizes: Vec<usize> = list.parts.iter().map(Vec::len).collect();
+    let sizes = several(&sizes, ", ");
     match list.parts.len() {
         0 => "no part".to_owned(),
         count => format!("{} ({sizes} images)", counted(count, "part")),

@@ -9,7 +9,7 @@ use std::time::Duration;
 use viewcert::at_cameras::finished::Held;
 use viewcert::wording::printable;
 use viewcert_advice::split::{Free, Split};
-use viewcert_audit::softness::{ROUNDING, SHARE, Softness};
+use viewcert_audit::softness::{ROUNDING, SHARE};
 use viewcert_formats::model::Posed;
 
 /// What was found of a model.
@@ -27,7 +27,7 @@ pub struct SplitReport<'a> {
     /// What is free between parts.
     pub free: &'a [Free],
     /// How soft the model is, if it was measured.
-    pub softness: Option<Softness>,
+    pub softness: Option<f64>,
     /// What was written.
     pub split: &'a Split,
     /// How long it took.
@@ -43,8 +43,7 @@ impl SplitReport<'_> {
 
     /// Whether a motion of images changes no observation but by rounding.
     fn is_soft(&self) -> bool {
-        self.softness
-            .is_some_and(|softness| softness.pixels < ROUNDING)
+        self.softness.is_some_and(|pixels| pixels < ROUNDING)
     }
 
     /// The answer.
@@ -74,10 +73,9 @@ impl SplitReport<'_> {
 
     fn softest(&self) -> String {
         match self.softness {
-            Some(softness) if softness.pixels.is_finite() => format!(
-                "{:.1e} pixels (floating point, intrinsics fixed): the largest change of an observation where images \
-                 move by {SHARE} of their spread; below {ROUNDING} is rounding",
-                softness.pixels
+            Some(pixels) if pixels.is_finite() => format!(
+                "{pixels:.1e} pixels (floating point, intrinsics fixed): the largest change of an observation where images \
+                 move by {SHARE} of their spread; below {ROUNDING} is rounding"
             ),
             Some(_) => "no motion of images to measure".to_owned(),
             None => "not measured: too many images see points in common".to_owned(),
@@ -132,7 +130,7 @@ impl SplitReport<'_> {
     /// Those of the writer.
     pub fn write_json(&self, out: &mut impl Write) -> io::Result<()> {
         let freedom = self.held.freedom;
-        let softest = self.softness.filter(|softness| softness.pixels.is_finite());
+        let softest = self.softness.filter(|pixels| pixels.is_finite());
         let line = json!({
             "model": self.model,
             "notes": self.notes,
@@ -144,9 +142,7 @@ impl SplitReport<'_> {
             "strength": freedom.strength.name(),
             "error_log2": freedom.strength.error_log2(),
             "free": self.free,
-            "softest": softest.map(|of| json!({ "pixels": of.pixels, "rounding": self.is_soft() })),
-            "loose_points": self.held.loose_points,
-            "soft_points": self.softness.map(|softness| softness.soft_points),
+            "softest": softest.map(|pixels| json!({ "pixels": pixels, "rounding": self.is_soft() })),
             "split": self.split,
             "whole": self.is_whole(),
             "seconds": self.time.as_secs_f64(),

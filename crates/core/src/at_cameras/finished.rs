@@ -105,8 +105,6 @@ pub struct Held {
     pub parts: Vec<Vec<u32>>,
     /// What is free between parts that share an image or a point.
     pub joints: Vec<Hinge>,
-    /// Points that move along the rays of all of their views: these lie on one line.
-    pub loose_points: usize,
 }
 
 /// What is free between two parts.
@@ -554,10 +552,6 @@ pub fn held(model: &Finished, watch: &Watch) -> Result<Held, Stopped> {
             break (placed, root_of, kinds, core, done, freedom);
         }
     };
-    let is_loose = |&point: &usize| {
-        let all = placed.sights(point, |_| 0);
-        matches!(all.first(), Some((_, Sight::Ray(..))))
-    };
     let mut held = Held {
         freedom: Claim {
             value: freedom,
@@ -566,7 +560,6 @@ pub fn held(model: &Finished, watch: &Watch) -> Result<Held, Stopped> {
         is_scaled: root_of.iter().any(|&root| kinds[root] == Kind::Scaled),
         parts: Vec::new(),
         joints: Vec::new(),
-        loose_points: (0..model.points.len()).filter(is_loose).count(),
     };
     if freedom == 0 {
         held.parts = vec![(0..images as u32).collect()];
