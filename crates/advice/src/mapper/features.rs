@@ -15,27 +15,26 @@ pub struct Features {
 }
 
 impl Features {
-    /// Those of matches of so many images: two images and a feature of each. O(matches), up to sorting.
+    /// Those of matches of so many images: two images and a feature of each. O(matches), up to sorting the features
+    /// of an image and the matches of a feature.
     pub fn new(images: usize, matches: &[[(u32, u32); 2]]) -> Self {
-        let mut all: Vec<(u32, u32)> = matches.as_flattened().to_vec();
-        all.sort_unstable();
-        all.dedup();
-        let number = |feature: &(u32, u32)| all.partition_point(|other| other < feature) as u32;
-        let mut pairs: Vec<(u32, u32)> = matches
-            .iter()
-            .map(|[one, other]| (number(one), number(other)))
-            .flat_map(|(one, other)| [(one, other), (other, one)])
-            .collect();
-        // A list may have a match twice.
-        pairs.sort_unstable();
-        pairs.dedup();
+        let own = sorted(Lists::group(images, matches.as_flattened().iter().copied()));
+        let image = (0..images).flat_map(|image| own.of(image).iter().map(move |_| image as u32));
+        let image: Vec<u32> = image.collect();
         let begins = 0..=images as u32;
+        let begins = begins.map(|from| image.partition_point(|&image| image < from));
+        let begins: Vec<usize> = begins.collect();
+        let number = |(image, feature): (u32, u32)| {
+            let own = own.of(image as usize);
+            (begins[image as usize] + own.partition_point(|&other| other < feature)) as u32
+        };
+        let both = |[one, other]: [u32; 2]| [(one, other), (other, one)];
+        let pairs = matches.iter().flat_map(|ends| both(ends.map(number)));
+        let pairs: Vec<(u32, u32)> = pairs.collect();
         Self {
-            begins: begins
-                .map(|image| all.partition_point(|feature| feature.0 < image))
-                .collect(),
-            image: all.iter().map(|feature| feature.0).collect(),
-            matched: Lists::group(all.len(), pairs.iter().copied()),
+            matched: sorted(Lists::group(image.len(), pairs.iter().copied())),
+            begins,
+            image,
         }
     }
 
@@ -76,4 +75,15 @@ impl Features {
             .filter(|&feature| self.image(feature) == other)
             .count()
     }
+}
+
+/// The lists in increasing order; a list of matches may have one twice.
+fn sorted(mut lists: Lists) -> Lists {
+    for key in 0..lists.len() {
+        let mut items = lists.of(key).to_vec();
+        items.sort_unstable();
+        items.dedup();
+        lists.rewrite(key, &items);
+    }
+    lists
 }

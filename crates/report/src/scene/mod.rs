@@ -155,9 +155,8 @@ impl Scene {
         let suggested = suggested.filter_map(|[a, b]| Some((node(a)?, node(b)?)));
         let suggested: Vec<(u32, u32)> = suggested.collect();
         let off = contradicting.iter();
-        let off: Vec<(u32, u32)> = off
-            .filter_map(|[a, b]| Some((node(a)?, node(b)?)))
-            .collect();
+        let off = off.filter_map(|[a, b]| Some((node(a)?, node(b)?)));
+        let off: Vec<(u32, u32)> = off.collect();
         let count = scene.edges.len();
         for (kind, pairs) in [
             (Kind::Short, matched),
@@ -238,11 +237,8 @@ impl Scene {
             Kind::Suggested,
             Kind::Contradicting,
         ] {
-            let mut some: Vec<Edge> = edges
-                .iter()
-                .filter(|edge| edge.kind == kind)
-                .copied()
-                .collect();
+            let some = edges.iter().filter(|edge| edge.kind == kind);
+            let mut some: Vec<Edge> = some.copied().collect();
             if some.len() > MOST_LINES {
                 // Lines of smaller components are few and must not be lost.
                 some.sort_by_key(|edge| (edge.group == Some(0), Reverse(edge.weight), edge.ends));
@@ -264,10 +260,8 @@ impl Scene {
         chosen.extend((0..nodes).step_by(step));
         chosen.sort_unstable();
         chosen.dedup();
-        let both = self
-            .edges
-            .iter()
-            .flat_map(|edge| [edge.ends, (edge.ends.1, edge.ends.0)]);
+        let ends = self.edges.iter().map(|edge| edge.ends);
+        let both = ends.flat_map(|(a, b)| [(a, b), (b, a)]);
         let neighbours = Lists::group(nodes as usize, both);
         let mut nearest = vec![None; nodes as usize];
         (0..)
@@ -292,15 +286,13 @@ impl Scene {
                 *weights.entry(key).or_insert(0u32) += edge.weight.max(1);
             }
         }
-        let edges = weights
-            .into_iter()
-            .map(|((ends, group, kind), weight)| Edge {
-                ends,
-                group,
-                kind,
-                weight,
-            });
-        (chosen, edges.collect())
+        let line = |((ends, group, kind), weight)| Edge {
+            ends,
+            group,
+            kind,
+            weight,
+        };
+        (chosen, weights.into_iter().map(line).collect())
     }
 }
 
@@ -320,18 +312,18 @@ fn together(input: &NamedGraph) -> Vec<((u32, u32), u32)> {
         return edges.map(|&ends| (ends, 1)).collect();
     };
     let views = edges.map(|&(camera, point)| (point - cameras, camera));
-    let points = input.graph.nodes() - cameras as usize;
-    let views = Lists::group(points, views);
-    let mut seen: BTreeMap<(u32, u32), u32> = BTreeMap::new();
-    for point in 0..points {
-        let images = views.of(point);
-        for (k, &b) in images.iter().enumerate() {
-            for &a in &images[..k] {
-                *seen.entry((a.min(b), a.max(b))).or_default() += 1;
-            }
-        }
-    }
-    seen.into_iter().collect()
+    let views = Lists::group(input.graph.nodes() - cameras as usize, views);
+    let of_image = |own: &[(u32, u32)]| {
+        let seen = own.iter().map(|&(_, point)| (point - cameras) as usize);
+        let others = seen.flat_map(|point| views.of(point)).copied();
+        let mut others: Vec<u32> = others.filter(|&other| own[0].0 < other).collect();
+        others.sort_unstable();
+        let same = others.chunk_by(|one, other| one == other);
+        let weighted = same.map(|same| ((own[0].0, same[0]), same.len() as u32));
+        weighted.collect::<Vec<_>>()
+    };
+    let edges = input.graph.edges().chunk_by(|one, other| one.0 == other.0);
+    edges.flat_map(of_image).collect()
 }
 
 /// The first group that has both ends of an edge; two components share at most one node.
