@@ -101,10 +101,10 @@ class HereCheck(Claims):
     # (H1) to (H3) ----------------------------------------------------------------------------------------------------
 
     def read_centres(self, values, cameras):
-        need(len(a_list(values, "section 14: centres")) == self.graph.n, "section 13: (H1) not a centre for each node")
+        need(len(a_list(values, "section 14: centres")) == self.graph.n, "section 14: (H1) not a centre for each node")
         self.centres, form = [], b"viewcert centres 1\n" + struct.pack("<Q", self.graph.n)
         for value in values:
-            need(len(a_list(value, "section 14: a centre")) == 4, "section 13: a centre has not four coordinates")
+            need(len(a_list(value, "section 14: a centre")) == 4, "section 14: a centre has not four coordinates")
             self.centres.append([a_big(x, "section 14: a centre") for x in value])
             form += b"".join(x.encode() + b"\n" for x in value)
         self.centres_hash = hashlib.sha256(form).digest()
@@ -113,9 +113,9 @@ class HereCheck(Claims):
         need(self.model != "calibrated" or all(last), "section 14: (H1) a centre is at infinity")
         need(self.model != "affine" or not any(last), "section 14: (H1) a camera is not affine")
         if cameras is not None:
-            need(len(a_list(cameras, "section 14: cameras")) == self.graph.n, "section 13: (H2) not a camera for each node")
+            need(len(a_list(cameras, "section 14: cameras")) == self.graph.n, "section 14: (H2) not a camera for each node")
             for camera, centre in zip(cameras, self.centres):
-                need(len(a_list(camera, "section 14: a camera")) == 12, "section 13: (H2) not twelve entries")
+                need(len(a_list(camera, "section 14: a camera")) == 12, "section 14: (H2) not twelve entries")
                 numbers = [a_big(x, "section 14: a camera") for x in camera]
                 rows = [numbers[k : k + 4] for k in (0, 4, 8)]
                 need(any(minors(rows)), "section 14: (H2) the rank of a camera is not 3")

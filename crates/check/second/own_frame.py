@@ -67,7 +67,7 @@ class OwnFrame(BaseLines):
         self.part = {v: number[min(nodes)] for v, nodes in part.items()}
 
     def own_motions(self, group, with_given, value, where):
-        """Section 16, (F2) and (F3): the dimension of the motions is at most this."""
+        """Section 16, (F4): the dimension of the motions is at most this."""
         own, times = self.own, {}
         for member in group:
             for node in self.nodes(member):
@@ -119,7 +119,7 @@ class OwnFrame(BaseLines):
         return width - len(rows) + outside
 
     def own_upper(self, value, whole, where):
-        """Section 16, (F4): an upper bound on the rank."""
+        """Section 16, (F6): an upper bound on the rank."""
         blocks, bound = members(value, "blocks bound", where)
         groups = []
         for k, block in enumerate(a_list(blocks, f"{where}: blocks")):
