@@ -161,10 +161,8 @@ fn used(contraction: &Contraction) -> Vec<Pair> {
 }
 
 fn check(graph: &Graph, options: &Options) -> Result<(), VerdictError> {
-    Ok(options
-        .watch
-        .task(Step::Contraction, graph.nodes())
-        .check()?)
+    let task = options.watch.task(Step::Contraction, graph.nodes());
+    Ok(task.check()?)
 }
 
 /// The nodes of every final body, increasing.

@@ -31,13 +31,11 @@ pub(super) fn weak(
     options: &Options,
 ) -> Result<Weak, VerdictError> {
     let place = by_distance(graph);
-    let mut open: Vec<Open> = pairs
-        .into_iter()
-        .map(|pair| Open {
-            here: pair,
-            name: pair,
-        })
-        .collect();
+    let as_it_is = |pair| Open {
+        here: pair,
+        name: pair,
+    };
+    let mut open: Vec<Open> = pairs.into_iter().map(as_it_is).collect();
     open.sort_by_key(|pair| {
         let [a, b] = [pair.here.0, pair.here.1].map(|v| place[v as usize]);
         (a.min(b), a.max(b))
@@ -106,14 +104,11 @@ fn search_images(
     let links = parts.links.iter().map(|&(pair, _)| left.pair(pair));
     let small = chained(&bodies, links.chain(back));
     let at = |here| small.number(here).expect("a node with its pairs");
-    let moved: Vec<OpenImage> = open
-        .iter()
-        .map(|&(here, image)| (at(here), image))
-        .collect();
+    let moved = open.iter().map(|&(here, image)| (at(here), image));
+    let moved: Vec<OpenImage> = moved.collect();
     let (one, other) = moved.split_at(moved.len() / 2);
-    let [one, other] = both([one, other], |half| {
-        search_images(&small.graph, half, options)
-    });
+    let search = |half| search_images(&small.graph, half, options);
+    let [one, other] = both([one, other], search);
     Ok([one?, other?].concat())
 }
 

@@ -21,8 +21,11 @@ const SHARES: [usize; 2] = [2, 8];
 /// Pairs with a body that clear each other.
 const ENOUGH: usize = 3;
 
-/// In how many shares images are left out if less than half are cleared when they are left out at once.
-const THIN: usize = 8;
+/// In how many shares sets of images are left out once less than half of one set is cleared.
+const THIN: usize = 4;
+
+/// Fewer images than this are decided at once: a contraction for few of them clears too little.
+const FEW: usize = 64;
 
 const NONE: u32 = u32::MAX;
 
@@ -37,26 +40,34 @@ pub(super) fn images_not_cleared(
     options: &Options,
 ) -> Result<Vec<u32>, VerdictError> {
     let neighbours = Adjacency::new(graph);
-    let mut shares = 1;
+    let mut is_thin = false;
     loop {
         let before = images.len();
         let mut left = Vec::new();
-        for set in independent(graph, images) {
-            for share in 0..shares.min(set.len()) {
+        let mut sets = independent(graph, images);
+        sets.reverse();
+        while let Some(set) = sets.pop() {
+            let thin = THIN.min(1 + set.len() / 16);
+            let shares = if is_thin { thin } else { 1 };
+            let mut open = Vec::new();
+            for share in 0..shares {
                 check(graph, options)?;
                 let out = set.iter().skip(share).step_by(shares).copied();
                 let bodies = bodies_without(graph, out.clone(), options);
-                left.extend(out.filter(|&v| !in_one_body(&bodies, neighbours.neighbours(v))));
+                open.extend(out.filter(|&v| !in_one_body(&bodies, neighbours.neighbours(v))));
+            }
+            if is_thin || 2 * open.len() <= set.len() {
+                left.extend(open);
+            } else {
+                is_thin = true;
+                sets.push(open);
             }
         }
         left.sort_unstable();
         images = left;
-        shares = match shares {
-            _ if images.is_empty() => return Ok(images),
-            _ if 2 * images.len() <= before => 1,
-            1 => THIN,
-            _ => return Ok(images),
-        };
+        if images.len() < FEW || 2 * images.len() > before {
+            return Ok(images);
+        }
     }
 }
 
