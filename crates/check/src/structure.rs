@@ -10,20 +10,30 @@ use crate::graph::Graph;
 use crate::rejection::{Checked, Failure, ensure};
 use crate::setting::Setting;
 use crate::vectors::Vectors;
+use std::collections::HashMap;
 
 /// A set of members, in increasing order. The number of a final body is its position in the list of
 /// known parts and bodies; that of a loose edge is the length of this list plus the edge's number.
 pub(crate) type Part = Vec<usize>;
 
-/// The final bodies in which each node lies: those of node i from end[i] to end[i + 1].
+const NONE: usize = usize::MAX;
+const SEVERAL: usize = usize::MAX - 1;
+
+/// The final bodies in which each node lies, in increasing order.
 struct BodiesOfNodes {
-    all: Vec<usize>,
-    end: Vec<usize>,
+    /// The only one of each node, `NONE` or `SEVERAL`.
+    only: Vec<usize>,
+    /// All of each node that lies in several.
+    several: HashMap<u32, Vec<usize>>,
 }
 
 impl BodiesOfNodes {
     fn list(&self, node: u32) -> &[usize] {
-        &self.all[self.end[node as usize]..self.end[node as usize + 1]]
+        match &self.only[node as usize] {
+            &NONE => &[],
+            &SEVERAL => &self.several[&node],
+            only => std::slice::from_ref(only),
+        }
     }
 }
 
@@ -71,7 +81,7 @@ impl<'a> Structure<'a> {
 
     /// The members that are edges: those that no body covers. No edge is covered by two.
     fn loose_edges(&self) -> Checked<Vec<usize>> {
-        let bodies_of = self.bodies_of_nodes();
+        let (bodies_of, meter) = (self.bodies_of_nodes(), self.setting.meter);
         let (mut loose, mut steps) = (Vec::new(), 0);
         for (number, &[i, j]) in self.graph.pairs.iter().enumerate() {
             let (a, b) = (bodies_of.list(i), bodies_of.list(j));
@@ -79,36 +89,29 @@ impl<'a> Structure<'a> {
             let (short, long) = if a.len() <= b.len() { (a, b) } else { (b, a) };
             steps += short.len() as u64;
             if steps > 1 << 16 {
-                self.setting
-                    .meter
-                    .charge(SPARSE * std::mem::take(&mut steps))?;
+                meter.charge(SPARSE * std::mem::take(&mut steps))?;
             }
             let covering = short.iter().filter(|body| long.binary_search(body).is_ok());
             let covering = covering.count();
-            ensure!(
-                covering <= 1,
-                "the edge [{i}, {j}] is covered by two bodies"
-            );
+            let fine = covering <= 1;
+            ensure!(fine, "the edge [{i}, {j}] is covered by two bodies");
             loose.extend((covering == 0).then_some(self.bodies.len() + number));
         }
         Ok(loose)
     }
 
     fn bodies_of_nodes(&self) -> BodiesOfNodes {
-        // The bodies of node i end at end[i + 1], which is where its next one goes until all are
-        // there.
-        let mut end = vec![0; self.graph.nodes() + 2];
-        let nodes = self.bodies.iter().flatten().flatten();
-        nodes.for_each(|&node| end[node as usize + 2] += 1);
-        (2..end.len()).for_each(|i| end[i] += end[i - 1]);
-        let mut all = vec![0; end[self.graph.nodes() + 1]];
+        let mut only = vec![NONE; self.graph.nodes()];
+        let mut several: HashMap<u32, Vec<usize>> = HashMap::new();
         for (k, nodes) in self.bodies.iter().enumerate() {
-            nodes.iter().flatten().for_each(|&node| {
-                all[end[node as usize + 1]] = k;
-                end[node as usize + 1] += 1;
-            });
+            for &node in nodes.iter().flatten() {
+                match std::mem::replace(&mut only[node as usize], SEVERAL) {
+                    NONE => only[node as usize] = k,
+                    first => several.entry(node).or_insert_with(|| vec![first]).push(k),
+                }
+            }
         }
-        BodiesOfNodes { all, end }
+        BodiesOfNodes { only, several }
     }
 
     /// The part with these final bodies and edges. Whether the edges are loose is for `owners` to
@@ -216,11 +219,8 @@ impl<'a> Structure<'a> {
 
     /// The nodes of several members, in increasing order.
     pub(crate) fn nodes(&self, part: &[usize]) -> Vec<u32> {
-        let mut nodes = sorted(
-            part.iter()
-                .flat_map(|&member| self.nodes_of(member))
-                .copied(),
-        );
+        let lists = part.iter().map(|&member| self.nodes_of(member));
+        let mut nodes = sorted(lists.collect::<Vec<_>>().concat());
         nodes.dedup();
         nodes
     }
