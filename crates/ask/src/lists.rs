@@ -41,6 +41,8 @@ impl Asked<'_> {
         let (first, is_one) = (graphs.next(), graphs.next().is_none());
         session.hide();
         let path = self.graph.display();
+        let points = matches!(&first, Some(Err(error)) if error.problem.holds_tracks());
+        ensure!(!points, "{path}: points, no matches: name the database");
         let mut input = first.with_context(|| format!("{path}: the file holds no graph"))??;
         ensure!(is_one, "{path}: several graphs; name a file with one");
         if input.database.is_some() {
@@ -75,8 +77,7 @@ impl Asked<'_> {
             None => by_pairs(session, input, own),
         };
         session.hide();
-        let parts = parts.with_context(|| name.clone())?;
-        Ok(List::new(name, images, parts))
+        Ok(List::new(name.clone(), images, parts.context(name)?))
     }
 
     /// The parts of the tracks that pairs between these images make.
