@@ -3,6 +3,7 @@
 import { Directory, File, OpenFile, PreopenDirectory, SyncOPFSFile, WASI } from "@bjorn3/browser_wasi_shim";
 
 const BLOCK = 1 << 19, BLOCKS = 1024;
+let program = null;
 
 // A file of any size, of which the program reads what it needs: the blocks that it asked for last are kept.
 function sliced(blob) {
@@ -37,10 +38,10 @@ function folder(files) {
   return new PreopenDirectory("/", root);
 }
 
-function run(module, words, input, files) {
+function run(words, input, files) {
   const standard = [new TextEncoder().encode(input), [], []].map((content) => new File(content));
   const wasi = new WASI(["verify", ...words], [], [...standard.map((file) => new OpenFile(file)), folder(files)], { debug: false });
-  const instance = new WebAssembly.Instance(module, { wasi_snapshot_preview1: wasi.wasiImport });
+  const instance = new WebAssembly.Instance(program, { wasi_snapshot_preview1: wasi.wasiImport });
   const [, out, err] = standard.map((file) => () => new TextDecoder().decode(file.data));
   try {
     return { code: wasi.start(instance), out: out(), err: err() };
@@ -49,4 +50,7 @@ function run(module, words, input, files) {
   }
 }
 
-onmessage = ({ data: { module, number, words, input, files } }) => postMessage({ number, ...run(module, words, input, files) });
+onmessage = ({ data: { module, number, words, input, files } }) => {
+  program ??= module;
+  if (words) postMessage({ number, ...run(words, input, files) });
+};

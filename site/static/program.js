@@ -3,29 +3,28 @@
 // and what takes too long can be stopped.
 const PROGRAM = (() => {
   const waiting = new Map();
-  const compiled = compile();
-  let worker = null, number = 0;
+  let compiled = null, worker = null, number = 0;
 
-  // From a server that sends compressed copies, compiled as it arrives; else, and from the disk, where nothing may be fetched,
-  // as a script.
   async function compile() {
+    await load("worker.js");
+    // From a server that sends compressed copies by brotli; else, and from the disk, where nothing may be fetched, as a script.
     const found = location.protocol.startsWith("http") && await fetch("static/verify.wasm");
-    if (!found.ok) await load("verify.js");
-    const body = found.ok ? found.body : unpacked(window.VERIFY).body;
-    return WebAssembly.compileStreaming(new Response(body, { headers: { "Content-Type": "application/wasm" } }));
+    if (found.ok) return WebAssembly.compile(await found.arrayBuffer());
+    await load("verify.js");
+    return WebAssembly.compile(await unpacked(window.VERIFY).arrayBuffer());
   }
 
   async function start() {
-    await load("worker.js");
+    const module = await (compiled ??= compile());
     if (worker) return;
     worker = new Worker(URL.createObjectURL(new Blob([window.WORKER], { type: "text/javascript" })));
     worker.onmessage = ({ data: { number: answered, ...answer } }) => { waiting.get(answered)?.[0](answer); waiting.delete(answered); };
     worker.onerror = (event) => { event.preventDefault(); stop(event.message); };
+    worker.postMessage({ module });
   }
 
   // Ends what is running; the next run starts anew.
   function stop(why = "stopped") {
-    if (why === "stopped" && !waiting.size) return;
     worker?.terminate();
     worker = null;
     for (const [, failed] of waiting.values()) failed(new Error(why));
@@ -35,14 +34,13 @@ const PROGRAM = (() => {
   // Exit code, standard output and standard error of a run of `verify` with these arguments, this standard input and these
   // files, each a path and a File.
   async function run(words, input, files = []) {
-    const module = await compiled, mine = ++number;
     await start();
+    const mine = ++number;
     return new Promise((done, failed) => {
       waiting.set(mine, [done, failed]);
-      worker.postMessage({ module, number: mine, words, input, files });
+      worker.postMessage({ number: mine, words, input, files });
     });
   }
 
-  start();
   return { run, stop };
 })();
