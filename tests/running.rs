@@ -15,7 +15,7 @@ use viewcert::watch::{Limits, Observer, Reason, Stage, Step, Watch};
 use viewcert_formats::{ReadOptions, read_graphs};
 
 /// Half a second for what does not ask whether it may go on, and patience with busy machines.
-const LATE: Duration = Duration::from_secs(8);
+const LATE: Duration = Duration::from_secs(4);
 
 /// The union of two Hamiltonian cycles on random orders of the nodes: four pairs a camera, but
 /// where the cycles share one. Contraction can do next to nothing with it.
