@@ -41,7 +41,7 @@ pub(super) fn run(mut program: Command, arguments: &HelpArguments) -> Result<u8>
         ["intrinsics"] => intrinsics::HELP.to_owned(),
         _ => {
             program.build();
-            command(&mut program, &words)?
+            command(&program, &words)?
         }
     };
     let mut out = std::io::stdout().lock();
@@ -50,10 +50,10 @@ pub(super) fn run(mut program: Command, arguments: &HelpArguments) -> Result<u8>
     Ok(GOOD)
 }
 
-fn command(program: &mut Command, words: &[&str]) -> Result<String> {
+fn command(program: &Command, words: &[&str]) -> Result<String> {
     let mut of = program;
     for word in words {
-        let Some(found) = of.find_subcommand_mut(word) else {
+        let Some(found) = of.find_subcommand(word) else {
             bail!(
                 "help: {word} is no command and no topic; the topics are input, given and intrinsics"
             );
