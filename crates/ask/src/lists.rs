@@ -42,7 +42,7 @@ impl Asked<'_> {
         session.hide();
         let path = self.graph.display();
         let points = matches!(&first, Some(Err(error)) if error.problem.holds_tracks());
-        ensure!(!points, "{path}: points, no matches: name the database");
+        ensure!(!points, "{path} holds points, no pairs; name its database");
         let mut input = first.with_context(|| format!("{path}: the file holds no graph"))??;
         ensure!(is_one, "{path}: several graphs; name a file with one");
         if input.database.is_some() {
