@@ -21,6 +21,7 @@ import time
 import check
 import cores
 import graphs
+import lower
 import make
 import notation
 from claim import stated
@@ -449,7 +450,7 @@ def evidence_of(document, kinds):
     return [e for e in found if e.get("kind") in kinds]
 
 
-LOWER = ("plane-flow", "minor", "integer-minor", "plane-minor")
+LOWER = tuple(lower.LowerBounds.LOWER)
 
 
 def change_pivots(document, rng):

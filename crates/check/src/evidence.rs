@@ -165,12 +165,6 @@ impl Shown {
         core: &Core,
     ) -> Checked<()> {
         match one {
-            Evidence::Minor(_)
-            | Evidence::IntegerMinor(_)
-            | Evidence::PlaneFlow(_)
-            | Evidence::PlaneMinor(_) => {
-                self.bounds.push(check_lower(one, structure.setting, core)?);
-            }
             Evidence::Counting(counting) => {
                 self.upper = self.upper.min(check_counting(counting, structure, piece)?);
             }
@@ -198,6 +192,9 @@ impl Shown {
                 let place = self.place(kernel, structure, core)?;
                 self.apart.push(place);
             }
+            lower => self
+                .bounds
+                .push(check_lower(lower, structure.setting, core)?),
         }
         Ok(())
     }

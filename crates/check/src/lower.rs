@@ -4,7 +4,7 @@
 use crate::algebra::Field;
 use crate::cameras::{self, Stream};
 use crate::core::Core;
-use crate::document::{Evidence, Minor, Model};
+use crate::document::{Evidence, Minor};
 use crate::elimination::{Echelon, Factors};
 use crate::integer_minor::check_integer_minor;
 use crate::matrices::jacobian;
@@ -18,12 +18,29 @@ use crate::setting::{Lower, Setting};
 /// 1.4).
 pub(crate) fn check_lower(evidence: &Evidence, setting: &Setting, core: &Core) -> Checked<Lower> {
     core.charge_draw(setting)?;
-    check_model(evidence, setting.model)?;
+    let model = setting.model;
+    // Each matrix belongs to a question.
+    let of = |fits: bool| -> Checked<()> {
+        ensure!(fits, "not evidence in the {model} model");
+        Ok(())
+    };
     let lower = match evidence {
-        Evidence::Minor(minor) => check_minor(minor, setting, core)?,
-        Evidence::IntegerMinor(minor) => check_integer_minor(minor, setting, core)?,
-        Evidence::PlaneFlow(flow) => check_plane_flow(flow, setting, core)?,
-        Evidence::PlaneMinor(minor) => check_plane_minor(minor, setting, core)?,
+        Evidence::Minor(minor) => {
+            of(!model.is_linear())?;
+            check_minor(minor, setting, core)?
+        }
+        Evidence::IntegerMinor(minor) => {
+            of(!model.is_linear())?;
+            check_integer_minor(minor, setting, core)?
+        }
+        Evidence::PlaneFlow(flow) => {
+            of(!model.in_plane())?;
+            check_plane_flow(flow, setting, core)?
+        }
+        Evidence::PlaneMinor(minor) => {
+            of(model.in_plane())?;
+            check_plane_minor(minor, setting, core)?
+        }
         _ => return Err(Failure::rejected("not a lower bound")),
     };
     let most = core.required(setting);
@@ -49,18 +66,6 @@ pub(crate) fn check_rigid(evidence: &[Evidence], setting: &Setting, core: &Core)
         is_rigid,
         "not proved to have the rank {required} of its core"
     );
-    Ok(())
-}
-
-/// Each matrix belongs to a question.
-fn check_model(evidence: &Evidence, model: Model) -> Checked<()> {
-    let fits = match evidence {
-        Evidence::Minor(_) | Evidence::IntegerMinor(_) => !model.is_linear(),
-        Evidence::PlaneFlow(_) => !model.in_plane(),
-        Evidence::PlaneMinor(_) => model.in_plane(),
-        _ => true,
-    };
-    ensure!(fits, "not evidence in the {model} model");
     Ok(())
 }
 

@@ -63,8 +63,23 @@ pub enum Evidence {
 }
 
 impl Evidence {
+    /// Whether it bounds a rank from below, at one point.
+    pub fn is_lower_bound(&self) -> bool {
+        match self {
+            Self::Minor { .. }
+            | Self::IntegerMinor(_)
+            | Self::PlaneFlow { .. }
+            | Self::PlaneMinor { .. } => true,
+            Self::OneSolution
+            | Self::Counting(_)
+            | Self::Draws(_)
+            | Self::Classes(_)
+            | Self::Kernel { .. } => false,
+        }
+    }
+
     /// The prime of its residues, of several the smallest.
-    fn prime(&self) -> Option<u64> {
+    pub fn prime(&self) -> Option<u64> {
         match self {
             Self::Minor { draw, .. }
             | Self::PlaneFlow { draw, .. }

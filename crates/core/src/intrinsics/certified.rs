@@ -142,12 +142,7 @@ impl ByRank {
             part: Part::Body(body),
             at: [nodes_of(body)[0], nodes_of(body)[1]],
         });
-        let lower = evidence.iter().filter(|evidence| {
-            matches!(
-                evidence,
-                Evidence::Minor { .. } | Evidence::IntegerMinor(_) | Evidence::PlaneFlow { .. }
-            )
-        });
+        let lower = evidence.iter().filter(|one| one.is_lower_bound());
         Self {
             merge: merge.collect(),
             evidence: lower.cloned().collect(),
