@@ -133,25 +133,33 @@ pub fn command() -> clap::Command {
     CommandLine::command()
 }
 
+/// Whether this is the whole program. A page loads the program, so that of a page lacks what no page asks for.
+const WHOLE: bool = !cfg!(target_family = "wasm");
+/// Whether it answers about photographs; the page for graphs does not.
+const PHOTOGRAPHS: bool = WHOLE || cfg!(feature = "databases");
+
 fn run(session: &Session, arguments: &CommandLine) -> Result<u8> {
     match &arguments.command {
-        Some(Command::Overview(arguments)) => files::overview(session, arguments),
+        Some(Command::Overview(arguments)) if PHOTOGRAPHS => files::overview(session, arguments),
         Some(Command::Advise(arguments)) => decisions::run(session, &arguments.plan()?),
-        Some(Command::Watch(arguments)) => watch::run(session, arguments),
-        Some(Command::Export(arguments)) => decisions::run(session, &arguments.plan()?),
-        Some(Command::Split(arguments)) => split::run(session, arguments),
-        Some(Command::Contradictions(arguments)) => files::contradictions(session, arguments),
-        Some(Command::Merge(arguments)) => files::merge(session, arguments),
-        Some(Command::Lists(arguments)) => files::lists(session, arguments),
+        Some(Command::Watch(arguments)) if WHOLE => watch::run(session, arguments),
+        Some(Command::Export(arguments)) if WHOLE => decisions::run(session, &arguments.plan()?),
+        Some(Command::Split(arguments)) if WHOLE => split::run(session, arguments),
+        Some(Command::Contradictions(arguments)) if WHOLE => {
+            files::contradictions(session, arguments)
+        }
+        Some(Command::Merge(arguments)) if WHOLE => files::merge(session, arguments),
+        Some(Command::Lists(arguments)) if WHOLE => files::lists(session, arguments),
         Some(Command::Draw(arguments)) => decisions::run(session, &arguments.plan()?),
         Some(Command::Witness(arguments)) => decisions::run(session, &arguments.plan()?),
-        Some(Command::Help(arguments)) => help::run(CommandLine::command(), arguments),
-        Some(Command::Check(arguments)) => check::run(arguments),
+        Some(Command::Help(arguments)) if WHOLE => help::run(CommandLine::command(), arguments),
+        Some(Command::Check(arguments)) if WHOLE => check::run(arguments),
         Some(Command::Convert(arguments)) => convert::run(session, arguments),
         Some(Command::Label(arguments)) => label::run(session, arguments),
-        Some(Command::Catalog(arguments)) => catalog::run(session, arguments),
-        Some(Command::Audit(arguments)) => audit::run(session, arguments),
+        Some(Command::Catalog(arguments)) if WHOLE => catalog::run(session, arguments),
+        Some(Command::Audit(arguments)) if WHOLE => audit::run(session, arguments),
         Some(Command::Models(arguments)) => models::run(session, arguments),
+        Some(_) => bail!("no page has this command; install the program for it"),
         None => {
             let verify = &arguments.verify;
             verify.recorded(no_command(verify).map(|()| exit::GOOD))?;

@@ -22,6 +22,9 @@ C_FLAGS = "--target=wasm32-wasi -isystem /usr/include/wasm32-wasi"
 TARGET = "wasm32-wasip1"
 PACKAGES = {RUSTC: "rustc-web", pathlib.Path("/usr/lib/rustlib/src/rust/library"): "rust-web-src", WASI: "wasi-libc", NUMBERS: "libclang-rt-19-dev-wasm32", CLANG: "clang-19", LINKER: "lld-19", "node": "nodejs", "npm": "npm", "cargo": "cargo"}
 
+# The programs of the pages, by the features that they lack: only photographs ask for databases.
+PROGRAMS = {"photographs": [], "graphs": ["--no-default-features"]}
+
 # Modules of this package that write a page in the browser.
 WRITER = ("__init__", "graph_page", "graphs", "pictures", "record", "story", "words")
 
@@ -33,9 +36,23 @@ def needed():
         raise SystemExit(f"packages of Debian 12 are missing: apt-get install {' '.join(missing)}")
 
 
-def program(static):
-    """Builds `verify` for the browser."""
-    folder = ROOT / "target/site-program"
+def programs(static):
+    """Builds `verify` for the browser, side by side: for photographs, and for graphs, which is small."""
+    builds = {name: _build(ROOT / "target/site-program" / name, features) for name, features in PROGRAMS.items()}
+    for name, (built, build) in builds.items():
+        if build.wait():
+            raise SystemExit(f"the program for {name} could not be built")
+        packed = static / f"{name}.wasm.br"
+        if not packed.exists() or packed.stat().st_mtime < built.stat().st_mtime:
+            # For servers that send compressed copies.
+            subprocess.run(["node", "-e", "const f = require('fs'); f.writeFileSync(process.argv[2], require('zlib').brotliCompressSync(f.readFileSync(process.argv[1])))", built, packed], check=True)
+        # A page from the disk may not fetch; packed, a script is a quarter as large.
+        assets.script(static / f"{name}.js", VERIFY=base64.b64encode(zlib.compress(built.read_bytes(), 9)).decode())
+    assets.script(static / "worker.js", WORKER=(static / "worker.js").read_text())
+
+
+def _build(folder, features):
+    """Where the program will be, and its build."""
     folder.mkdir(parents=True, exist_ok=True)
     subprocess.run([CLANG, *C_FLAGS.split(), "-O1", "-c", HERE / "wasi.c", "-o", folder / "wasi.o"], check=True)
     variable = f"CARGO_TARGET_{TARGET.upper().replace('-', '_')}"
@@ -49,17 +66,10 @@ def program(static):
         "AR_wasm32_wasip1": "ar",
         "CFLAGS_wasm32_wasip1": C_FLAGS,
     }
-    words = ["cargo", "rustc", "--quiet", "--locked", "-Zbuild-std=std,panic_abort", "-Zbuild-std-features=", "--target", TARGET]
+    words = ["cargo", "rustc", "--quiet", "--locked", *features, "-Zbuild-std=std,panic_abort", "-Zbuild-std-features=", "--target", TARGET]
     words += ["--target-dir", folder, "--profile", "page", "--bin", "verify", "--"]
     words += ["-Clink-arg=-zstack-size=8388608", f"-Clink-arg={folder / 'wasi.o'}", f"-Clink-arg={NUMBERS}"]
-    subprocess.run(words, cwd=ROOT, env=environment, check=True)
-    built, packed = folder / TARGET / "page/verify.wasm", static / "verify.wasm.br"
-    if not packed.exists() or packed.stat().st_mtime < built.stat().st_mtime:
-        # For servers that send compressed copies.
-        subprocess.run(["node", "-e", "const f = require('fs'); f.writeFileSync(process.argv[2], require('zlib').brotliCompressSync(f.readFileSync(process.argv[1])))", built, packed], check=True)
-    # A page from the disk may not fetch; packed, a script is a quarter as large.
-    assets.script(static / "verify.js", VERIFY=base64.b64encode(zlib.compress(built.read_bytes(), 9)).decode())
-    assets.script(static / "worker.js", WORKER=(static / "worker.js").read_text())
+    return folder / TARGET / "page/verify.wasm", subprocess.Popen(words, cwd=ROOT, env=environment)
 
 
 def libraries(static, cache):
