@@ -20,10 +20,9 @@ const INPUT: &str = "\
 How files are read: the same options for all commands with graphs.
 
 Formats are known by their content, not by their names: lists of pairs and tables with a head that names
-two images or nodes (COLMAP, hloc, kapture, GLOMAP, 1DSfM, SNAP, networkx), raw matches of COLMAP, g2o,
-GraphML, MatrixMarket, MATLAB 5, graph6 and sparse6 (a graph a line), all of them also compressed by gzip,
-and COLMAP's databases; with --tracks also models and other
-files of tracks. The first line of every report says how the file was read; docs/input.md has all rules.
+two images or nodes (COLMAP, hloc, kapture, GLOMAP, 1DSfM, SNAP, networkx), what --format names below, all of
+it also compressed by gzip, and COLMAP's databases; with --tracks also models and other files of tracks.
+The first line of every report says how the file was read; docs/input.md has all formats and rules.
 
 A list of pairs has one separator and 2 fields on every line, 3 with a number, or 9 or 14 with a relative
 pose; all labels are integers, or none is a number. Everything else is refused, with what was seen.

@@ -410,9 +410,8 @@ def read(
         database, a model (the folder or its points3D file), Bundler's ``bundle.out``, BAL, NVM,
         or a file of OpenMVG, AliceVision or OpenSfM.
     format : str, optional
-        The format of files that do not show it: ``'edges'``, ``'graph6'``, ``'sparse6'``,
-        ``'matlab'``, ``'matrix-market'``,
-        ``'openmvg-pairs'``, ``'raw-matches'``, ``'g2o'`` or ``'graphml'``.
+        The format of files that do not show it, as ``'edges'``: a word of ``--format`` in
+        ``verify help input``.
     variable : str, optional
         The variable of a MATLAB file.
     pipeline, min_inliers : optional

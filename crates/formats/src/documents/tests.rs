@@ -131,7 +131,6 @@ fn written(document: Document, labels: &[String], pairs: &[(usize, usize)]) -> S
                 .unwrap();
             }
         }
-        Document::PoseGraph => unreachable!("its nodes have no labels"),
         Document::ViewSelection => {
             writeln!(text, "{}", labels.len()).unwrap();
             for (label, node) in labels.iter().zip(0..) {
@@ -157,6 +156,7 @@ fn written(document: Document, labels: &[String], pairs: &[(usize, usize)]) -> S
                 text += "\n";
             }
         }
+        other => unreachable!("no graph is written as {other:?}"),
     }
     text
 }

@@ -135,9 +135,7 @@ impl FromStr for Format {
 
 /// A word that is not the name of a format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "the formats are edges, graph6, sparse6, matlab, matrix-market, openmvg-pairs, raw-matches, g2o and graphml"
-)]
+#[error("the formats are {}", Format::ALL.map(|(_, names, _)| names[0]).join(", "))]
 pub struct UnknownFormat;
 
 /// The name on the command line, which [`FromStr`] reads.
