@@ -10,7 +10,7 @@ use anyhow::{Context, Result};
 use std::collections::BTreeMap;
 use viewcert::decide::{Options, Question};
 use viewcert::watch::Watch;
-use viewcert::{Model, Value, Verdict};
+use viewcert::{Value, Verdict};
 use viewcert_formats::NamedGraph;
 
 /// What a component may hang on.
@@ -154,9 +154,9 @@ impl<'a> Task<'a> {
                 (Weak::Images, None) => "images",
                 (Weak::Images, Some(_)) => "cameras and points",
             },
-            kept: match self.verdict.model {
-                Model::Projective => Value::FiniteSolvable.name(),
-                Model::Calibrated | Model::Affine => Value::Solvable.name(),
+            kept: match self.verdict.model.is_linear() {
+                true => Value::Solvable.name(),
+                false => Value::FiniteSolvable.name(),
             },
             items: items.collect(),
             single_pairs: parts.links.len(),

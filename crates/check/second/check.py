@@ -19,7 +19,7 @@ from claim import strength
 from contradictions import ContradictionsCheck
 from intrinsics import IntrinsicsCheck
 from graphs import read_given
-from notation import Reject, TooLarge, Unreadable, need, parse
+from notation import MODELS, Reject, TooLarge, Unreadable, need, parse
 from own_frame import OwnFrame
 from solutions import WORK_LIMIT
 
@@ -179,7 +179,7 @@ def main(arguments=None):
     parser.add_argument("certificate", nargs="?", help="a certificate, one JSON text (- is standard input)")
     parser.add_argument("graph", nargs="?", help="the graph that it has to be about; of one of contradictions the COLMAP database")
     parser.add_argument("--given", metavar="FILE", help="what it has to suppose besides the graph; with GRAPH, default nothing")
-    parser.add_argument("--model", help="the model; with GRAPH or any of these, default projective", choices=("projective", "calibrated", "affine"))
+    parser.add_argument("--model", help="the model; with GRAPH or any of these, default projective", choices=tuple(MODELS))
     parser.add_argument("--centres", metavar="HEX", help="the hash of the cameras' centres, for a certificate at given cameras")
     parser.add_argument("--classes", metavar="HEX", help="the hash of the classes, for a certificate of intrinsics")
     parser.add_argument("--list", nargs="+", metavar="FILE", help="many certificates: .json, .jsonl, .jsonl.gz")

@@ -5,7 +5,7 @@ import itertools
 import struct
 
 from document import Document
-from notation import TooLarge, a_list, a_pair, an_int, increasing, members, need
+from notation import MODELS, TooLarge, a_list, a_pair, an_int, increasing, members, need
 
 
 class Members(Document):
@@ -13,7 +13,7 @@ class Members(Document):
 
     def required(self, n, scaled=False):
         """Section 6: the rank of a rigid graph with n nodes."""
-        a, b = {"projective": (11, 15), "calibrated": (3, 4), "affine": (8, 12)}[self.model]
+        a, b, _, _ = MODELS[self.model]
         return a * n - b + int(scaled)
 
     def is_scaled(self, group):

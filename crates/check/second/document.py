@@ -7,7 +7,7 @@ import struct
 
 from elimination import find_pivots
 from graphs import read_given, read_graph, read_graph6
-from notation import a_big, a_list, a_string, an_int, distinct, increasing, members, members_about, need
+from notation import MODELS, a_big, a_list, a_string, an_int, distinct, increasing, members, members_about, need
 from supposed import Supposed
 
 
@@ -28,7 +28,7 @@ class Document:
         need("displacements" not in stated or "parts" not in stated, "section 3: displacements and parts at once")
         optional = [name for name in more if name in names_of_more[3:]]
         solutions, base_lines, own_frame = ([stated[name] for name in optional if name == own] for own in names_of_more[3:])
-        need(self.model in ("projective", "calibrated", "affine"), "section 3: no such model")
+        need(self.model in MODELS, "section 3: no such model")
         self.projective = self.model == "projective"
         self.read_graph(graph, graph_data)
         self.suppose(self.read_known_parts(stated["parts"]) if "parts" in stated else [])

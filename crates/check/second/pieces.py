@@ -3,7 +3,7 @@
 from cores import Core
 from draws import draw_centres, draws_of
 from matrices import CoreKey, drawn_ranks, edge_motion, edge_translation
-from notation import LABORATORY, OF_LABORATORY, a_big, a_list, a_string, an_int, distinct, members, need
+from notation import MODELS, LABORATORY, OF_LABORATORY, a_big, a_list, a_string, an_int, distinct, members, need
 from upper import UpperBounds
 
 
@@ -136,11 +136,11 @@ class Pieces(UpperBounds):
         """Section 7, kernel: the number of the draw of section 9 (or None), and the prime, seed and number it uses."""
         _, prime, seed, draw, vector = members(value, "kind prime seed draw vector", where)
         p, seed, draw = key = self.prime_seed_draw(prime, seed, draw, where)
-        per_node = {"projective": 12, "calibrated": 3, "affine": 2}[self.model]
+        per_node = MODELS[self.model][2]
         need(len(a_list(vector, f"{where}: vector")) == per_node * core.n, f"{where}: the vector has another length")
         vector = [a_big(entry, f"{where}: vector", least=0, below=p) for entry in vector]
         drawn = next((k for k, (d, q, _) in enumerate(draws) if (seed, draw, p) == (seed_of_draws, d, q)), None)
-        if self.model == "affine":
+        if MODELS[self.model][3]:
             centres = self.plane_points(core, p, seed, draw, where)
         elif drawn is None:
             centres = draw_centres(self.graph.hash, core.hash, core.n, p, seed, draw, 3, core.places)

@@ -5,6 +5,7 @@ pub(crate) mod own_frame;
 pub(crate) mod solutions;
 
 use crate::json::{Big, Optional, Value, kinds, objects};
+pub use crate::model::Model;
 use crate::question::Question;
 use base_lines::{BaseLines, BaseLinesClaim};
 use own_frame::{OwnFrame, OwnFrameClaim};
@@ -80,50 +81,6 @@ impl Value for Version {
                 "version {other} is unknown to this program, which checks version 3"
             ))),
         }
-    }
-}
-
-/// The cameras: unknown or known intrinsic parameters, or affine ones.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Model {
-    /// Finite or unique solvability from fundamental matrices.
-    #[default]
-    Projective,
-    /// Solvability from essential matrices: parallel rigidity in space.
-    Calibrated,
-    /// Solvability of affine cameras from their fundamental matrices: rigidity in the plane.
-    Affine,
-}
-
-impl Model {
-    const ALL: [Self; 3] = [Self::Projective, Self::Calibrated, Self::Affine];
-
-    /// That of a name, if it is one.
-    pub(crate) fn named(name: &str) -> Option<Self> {
-        Self::ALL
-            .into_iter()
-            .find(|model| model.to_string() == name)
-    }
-}
-
-impl fmt::Display for Model {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Projective => "projective",
-            Self::Calibrated => "calibrated",
-            Self::Affine => "affine",
-        })
-    }
-}
-
-impl Value for Model {
-    fn read<'de, D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let name = String::read(from)?;
-        Self::named(&name).ok_or_else(|| {
-            D::Error::custom(format!(
-                "`{name}` is not a model: `projective`, `calibrated` or `affine`"
-            ))
-        })
     }
 }
 

@@ -64,6 +64,7 @@ mod kinds;
 mod limits;
 mod lower;
 mod matrices;
+mod model;
 mod own_frame;
 mod parts;
 mod pivots;

@@ -5,33 +5,6 @@ use crate::limits::Meter;
 use crate::rejection::{Checked, ensure};
 use crate::vectors::Vectors;
 
-impl Model {
-    /// Whether finitely many solutions are one (section 6): its equations are linear.
-    pub(crate) fn is_linear(self) -> bool {
-        self != Self::Projective
-    }
-
-    /// Whether it is rigidity in space.
-    pub(crate) fn in_space(self) -> bool {
-        self == Self::Calibrated
-    }
-
-    /// Whether it is rigidity in the plane.
-    pub(crate) fn in_plane(self) -> bool {
-        self == Self::Affine
-    }
-
-    /// The rank at which nodes are solvable up to finitely many solutions (sections 3 and 6).
-    pub(crate) fn required(self, nodes: usize) -> i64 {
-        match self {
-            _ if nodes == 1 => 0,
-            Self::Projective => 11 * nodes as i64 - 15,
-            Self::Calibrated => 3 * nodes as i64 - 4,
-            Self::Affine => 8 * nodes as i64 - 12,
-        }
-    }
-}
-
 /// What all evidence refers to.
 pub(crate) struct Setting<'a> {
     pub model: Model,

@@ -76,12 +76,8 @@ impl<'a> Centres<'a> {
         for (v, place) in places.iter().enumerate() {
             let is_zero = |x: &Big<String>| x.0 == "0";
             ensure!(!place.iter().all(is_zero), "the centre of node {v} is zero");
-            let wrong = match document.model {
-                Model::Projective => false,
-                Model::Calibrated => is_zero(&place[3]),
-                Model::Affine => !is_zero(&place[3]),
-            };
-            ensure!(!wrong, "the centre of node {v} is none of the model");
+            let fits = document.model.may_be(is_zero(&place[3]));
+            ensure!(fits, "the centre of node {v} is none of the model");
         }
         let mut centres = Centres {
             model: document.model,

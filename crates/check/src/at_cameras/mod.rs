@@ -153,13 +153,9 @@ impl Checker<'_> {
             .map(|class| (&class.bodies, &class.edges));
         let (parts, owner) = structure.partition(part, list)?;
         let model = structure.setting.model;
-        let width = match model {
-            Model::Projective => 12,
-            Model::Calibrated => 3,
-            Model::Affine => 2,
-        };
         ensure!(
-            piece.kernel.len() == width * core.nodes && piece.kernel.iter().all(|x| x.0 < field.p),
+            piece.kernel.len() == model.width() * core.nodes
+                && piece.kernel.iter().all(|x| x.0 < field.p),
             "`kernel` is no vector of residues"
         );
         let vector: Vec<u64> = piece.kernel.iter().map(|x| field.element(x.0)).collect();
@@ -220,12 +216,12 @@ impl Checker<'_> {
                     rank += i64::from(echelon.push(row, None)?);
                 }
             }
-            Model::Affine => {
+            _ => {
                 let plane: Vec<[u64; 2]> = points.iter().map(|&[x, y, _]| [x, y]).collect();
                 let mut echelon = Echelon::new(field, 2 * core.nodes, setting.meter);
                 for row in 0..core.edges.len() {
                     let row = plane_direction(field, core, &plane, row);
-                    rank += 4 * i64::from(echelon.push(row, None)?);
+                    rank += setting.model.of_plane(i64::from(echelon.push(row, None)?));
                 }
             }
         }

@@ -6,10 +6,7 @@ impl Model {
     /// How often the rank of a proof goes into that of a verdict, which is four times that of N in
     /// the affine model.
     pub(super) const fn times(self) -> usize {
-        match self {
-            Self::Projective | Self::Calibrated => 1,
-            Self::Affine => 4,
-        }
+        self.of_plane(1)
     }
 
     /// The rank of a body of so many nodes: of J_P, or of N.
