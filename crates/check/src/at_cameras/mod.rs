@@ -216,7 +216,7 @@ impl Checker<'_> {
                     rank += i64::from(echelon.push(row, None)?);
                 }
             }
-            _ => {
+            Model::Affine => {
                 let plane: Vec<[u64; 2]> = points.iter().map(|&[x, y, _]| [x, y]).collect();
                 let mut echelon = Echelon::new(field, 2 * core.nodes, setting.meter);
                 for row in 0..core.edges.len() {

@@ -66,7 +66,8 @@ pub(super) fn bound(model: Model, rank: i64, core: &Core, bits: u64) -> u64 {
     let (rank, edges) = (rank as u64, core.edges.len() as u64);
     match model {
         Model::Projective => (rank + edges + 1) * (3 * bits + 3),
-        _ => (rank / model.of_plane(1) as u64 + 1) * (2 * bits + 2),
+        Model::Calibrated => (rank + 1) * (2 * bits + 2),
+        Model::Affine => (rank / 4 + 1) * (2 * bits + 2),
     }
 }
 
