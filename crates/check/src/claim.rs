@@ -311,7 +311,11 @@ impl Display for Verified {
             own_frame,
             notes,
         } = self;
-        let (given, cameras) = model.words();
+        let (given, cameras) = match model {
+            Model::Projective => ("fundamental", "cameras"),
+            Model::Calibrated => ("essential", "cameras"),
+            Model::Affine => ("fundamental", "affine cameras"),
+        };
         let answer = match verdict {
             Verdict::NotFiniteSolvable => "leave infinitely many possibilities for",
             Verdict::FiniteSolvable => "determine up to finitely many possibilities",

@@ -50,41 +50,6 @@ impl Model {
             Self::Affine => 8 * nodes as i64 - 12,
         }
     }
-
-    /// The rank in this model of what has so much of R (section 3).
-    pub(crate) fn of_plane(self, rank: i64) -> i64 {
-        match self {
-            Self::Projective | Self::Calibrated => rank,
-            Self::Affine => 4 * rank,
-        }
-    }
-
-    /// Columns of its matrix for a node (section 3).
-    pub(crate) fn width(self) -> usize {
-        match self {
-            Self::Projective => 12,
-            Self::Calibrated => 3,
-            Self::Affine => 2,
-        }
-    }
-
-    /// Whether a centre may be at infinity, or has to (section 14, H1).
-    pub(crate) fn may_be(self, at_infinity: bool) -> bool {
-        match self {
-            Self::Projective => true,
-            Self::Calibrated => !at_infinity,
-            Self::Affine => at_infinity,
-        }
-    }
-
-    /// What is given of pairs, and what they determine, in words.
-    pub(crate) fn words(self) -> (&'static str, &'static str) {
-        match self {
-            Self::Projective => ("fundamental", "cameras"),
-            Self::Calibrated => ("essential", "cameras"),
-            Self::Affine => ("fundamental", "affine cameras"),
-        }
-    }
 }
 
 impl fmt::Display for Model {

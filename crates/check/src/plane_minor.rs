@@ -27,7 +27,7 @@ pub(crate) fn check_plane_minor(
         plane_direction(field, core, &points, row)
     })?;
     Ok(Lower {
-        rank: setting.model.of_plane(minor.rows.len() as i64),
+        rank: 4 * minor.rows.len() as i64,
         at: Some((minor.prime, minor.seed, minor.draw)),
         note: None,
     })

@@ -16,6 +16,26 @@ use sha2::{Digest, Sha256};
 /// The prime modulo which nodes are independent.
 const MERSENNE: u64 = (1 << 61) - 1;
 
+impl Model {
+    /// Whether a centre may be at infinity, or has to (section 14, H1).
+    pub(super) fn may_be(self, at_infinity: bool) -> bool {
+        match self {
+            Self::Projective => true,
+            Self::Calibrated => !at_infinity,
+            Self::Affine => at_infinity,
+        }
+    }
+
+    /// Columns of its matrix for a node (section 3).
+    pub(super) fn width(self) -> usize {
+        match self {
+            Self::Projective => 12,
+            Self::Calibrated => 3,
+            Self::Affine => 2,
+        }
+    }
+}
+
 /// The centres of all nodes.
 pub(super) struct Centres<'a> {
     model: Model,

@@ -221,7 +221,7 @@ impl Checker<'_> {
                 let mut echelon = Echelon::new(field, 2 * core.nodes, setting.meter);
                 for row in 0..core.edges.len() {
                     let row = plane_direction(field, core, &plane, row);
-                    rank += setting.model.of_plane(i64::from(echelon.push(row, None)?));
+                    rank += 4 * i64::from(echelon.push(row, None)?);
                 }
             }
         }
