@@ -447,7 +447,7 @@ def served(browser, site):
         server.shutdown()
     # The rows of the atlas come after the verdict.
     before = {name: size for name, size in Compressed.sent.items() if name != "rows.js"}
-    right("graphs.wasm" in before and sum(before.values()) < 1.4e6, f"sent before the verdict: {before}")
+    right("verify-graphs.wasm" in before and sum(before.values()) < 1.4e6, f"sent before the verdict: {before}")
     print(f"verdict from a server: {sum(before.values()) / 1e6:.2f} MB")
 
 

@@ -42,12 +42,12 @@ def programs(static):
     for name, (built, build) in builds.items():
         if build.wait():
             raise SystemExit(f"the program for {name} could not be built")
-        packed = static / f"{name}.wasm.br"
+        packed = static / f"verify-{name}.wasm.br"
         if not packed.exists() or packed.stat().st_mtime < built.stat().st_mtime:
             # For servers that send compressed copies.
             subprocess.run(["node", "-e", "const f = require('fs'); f.writeFileSync(process.argv[2], require('zlib').brotliCompressSync(f.readFileSync(process.argv[1])))", built, packed], check=True)
         # A page from the disk may not fetch; packed, a script is a quarter as large.
-        assets.script(static / f"{name}.js", VERIFY=base64.b64encode(zlib.compress(built.read_bytes(), 9)).decode())
+        assets.script(static / f"verify-{name}.js", VERIFY=base64.b64encode(zlib.compress(built.read_bytes(), 9)).decode())
     assets.script(static / "worker.js", WORKER=(static / "worker.js").read_text())
 
 

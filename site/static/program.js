@@ -8,9 +8,9 @@ const PROGRAM = (() => {
   async function compile(name) {
     await load("worker.js");
     // From a server that sends compressed copies by brotli; else, and from the disk, where nothing may be fetched, as a script.
-    const found = location.protocol.startsWith("http") && await fetch(`static/${name}.wasm`);
+    const found = location.protocol.startsWith("http") && await fetch(`static/verify-${name}.wasm`);
     if (found.ok) return WebAssembly.compile(await found.arrayBuffer());
-    await load(`${name}.js`);
+    await load(`verify-${name}.js`);
     return WebAssembly.compile(await unpacked(window.VERIFY).arrayBuffer());
   }
 
