@@ -91,7 +91,6 @@ def main():
     browser.writer(static)
     assets.script(static / "terms.js", TERMS=assets.terms())
     assets.checkers(static, asked.cache, ROOT / "proofs/build/viewcert-proved.html")
-    step("checkers", begin)
     famous = atlas(Program(asked.verify, asked.cache), Program(asked.lab, asked.cache), asked.out, begin)
     counts = counted((ROOT / "certificates/counts.tsv").read_text(), LARGEST)
     write(asked.out / "index.html", start_page(famous, counts, LARGEST))

@@ -21,7 +21,6 @@ CLANG, LINKER = "clang-19", "wasm-ld-19"
 C_FLAGS = "--target=wasm32-wasi -isystem /usr/include/wasm32-wasi"
 TARGET = "wasm32-wasip1"
 PACKAGES = {RUSTC: "rustc-web", pathlib.Path("/usr/lib/rustlib/src/rust/library"): "rust-web-src", WASI: "wasi-libc", NUMBERS: "libclang-rt-19-dev-wasm32", CLANG: "clang-19", LINKER: "lld-19", "node": "nodejs", "npm": "npm", "cargo": "cargo"}
-
 # The programs of the pages, by the features that they lack: only photographs ask for databases.
 PROGRAMS = {"photographs": [], "graphs": ["--no-default-features"]}
 
@@ -37,22 +36,21 @@ def needed():
 
 
 def programs(static):
-    """Builds `verify` for the browser, side by side: for photographs, and for graphs, which is small."""
-    builds = {name: _build(ROOT / "target/site-program" / name, features) for name, features in PROGRAMS.items()}
-    for name, (built, build) in builds.items():
+    """Builds `verify` for the browser, side by side: for photographs, and for graphs, which is small; and copies for servers that compress."""
+    for name, (built, build) in {name: _build(name, features) for name, features in PROGRAMS.items()}.items():
         if build.wait():
             raise SystemExit(f"the program for {name} could not be built")
         packed = static / f"verify-{name}.wasm.br"
         if not packed.exists() or packed.stat().st_mtime < built.stat().st_mtime:
-            # For servers that send compressed copies.
             subprocess.run(["node", "-e", "const f = require('fs'); f.writeFileSync(process.argv[2], require('zlib').brotliCompressSync(f.readFileSync(process.argv[1])))", built, packed], check=True)
         # A page from the disk may not fetch; packed, a script is a quarter as large.
         assets.script(static / f"verify-{name}.js", VERIFY=base64.b64encode(zlib.compress(built.read_bytes(), 9)).decode())
     assets.script(static / "worker.js", WORKER=(static / "worker.js").read_text())
 
 
-def _build(folder, features):
+def _build(name, features):
     """Where the program will be, and its build."""
+    folder = ROOT / "target/site-program" / name
     folder.mkdir(parents=True, exist_ok=True)
     subprocess.run([CLANG, *C_FLAGS.split(), "-O1", "-c", HERE / "wasi.c", "-o", folder / "wasi.o"], check=True)
     variable = f"CARGO_TARGET_{TARGET.upper().replace('-', '_')}"
@@ -66,8 +64,7 @@ def _build(folder, features):
         "AR_wasm32_wasip1": "ar",
         "CFLAGS_wasm32_wasip1": C_FLAGS,
     }
-    words = ["cargo", "rustc", "--quiet", "--locked", *features, "-Zbuild-std=std,panic_abort", "-Zbuild-std-features=", "--target", TARGET]
-    words += ["--target-dir", folder, "--profile", "page", "--bin", "verify", "--"]
+    words = ["cargo", "rustc", "--quiet", "--locked", *features, "-Zbuild-std=std,panic_abort", "-Zbuild-std-features=", "--target", TARGET, "--target-dir", folder, "--profile", "page", "--bin", "verify", "--"]
     words += ["-Clink-arg=-zstack-size=8388608", f"-Clink-arg={folder / 'wasi.o'}", f"-Clink-arg={NUMBERS}"]
     return folder / TARGET / "page/verify.wasm", subprocess.Popen(words, cwd=ROOT, env=environment)
 

@@ -72,7 +72,6 @@ async function tellName({ label, graph6, girth, automorphisms }, current) {
 // Seconds that one question may take, and the most pairs for which a second solution and an explicit proof are asked for.
 const MOST_SECONDS = 60;
 const MOST_PAIRS = 120;
-
 let asked = 0;
 
 // What `verify` says of the graph, run by run, in this page; then the page that the atlas would have of it.
@@ -146,7 +145,6 @@ async function written(graph6, said) {
 }
 
 let pause = 0;
-
 // After a change by hand the reader may go on: it is decided when the hand rests.
 function changed() {
   paint();
