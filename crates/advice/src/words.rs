@@ -63,10 +63,12 @@ pub(crate) fn meaning(model: Model, freedom: usize, scales: Scales) -> String {
         (Model::Calibrated, 2) => "relative scale and one translation".to_owned(),
         (Model::Calibrated, 3) => "relative scale and two translations".to_owned(),
         (Model::Calibrated, _) => format!("{freedom} of 4 degrees of freedom"),
-        _ => format!(
-            "{freedom} of the {} degrees of freedom between two {model} frames",
-            model.freedom()
-        ),
+        (Model::Affine, _) => {
+            format!("{freedom} of the 12 degrees of freedom between two affine frames")
+        }
+        (Model::Projective, _) => {
+            format!("{freedom} of the 15 degrees of freedom between two projective frames")
+        }
     }
 }
 

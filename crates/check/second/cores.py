@@ -13,7 +13,7 @@ class Members(Document):
 
     def required(self, n, scaled=False):
         """Section 6: the rank of a rigid graph with n nodes."""
-        a, b, _, _ = MODELS[self.model]
+        a, b, _ = MODELS[self.model]
         return a * n - b + int(scaled)
 
     def is_scaled(self, group):

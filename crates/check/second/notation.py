@@ -14,8 +14,8 @@ if hasattr(sys, "set_int_max_str_digits"):
     sys.set_int_max_str_digits(0)  # the limit on digits is the one above
 
 
-# Section 3: a and b of full(k) = a k - b, columns for each node, how often R counts (0: another matrix decides).
-MODELS = {"projective": (11, 15, 12, 0), "calibrated": (3, 4, 3, 0), "affine": (8, 12, 2, 4)}
+# Section 3: a and b of full(k) = a k - b, columns for each node.
+MODELS = {"projective": (11, 15, 12), "calibrated": (3, 4, 3), "affine": (8, 12, 2)}
 
 
 class Reject(Exception):

@@ -3,7 +3,7 @@
 from cores import Core
 from draws import draw_centres, draws_of
 from matrices import CoreKey, drawn_ranks, edge_motion, edge_translation
-from notation import MODELS, LABORATORY, OF_LABORATORY, a_big, a_list, a_string, an_int, distinct, members, need
+from notation import LABORATORY, MODELS, OF_LABORATORY, a_big, a_list, a_string, an_int, distinct, members, need
 from upper import UpperBounds
 
 
@@ -140,7 +140,7 @@ class Pieces(UpperBounds):
         need(len(a_list(vector, f"{where}: vector")) == per_node * core.n, f"{where}: the vector has another length")
         vector = [a_big(entry, f"{where}: vector", least=0, below=p) for entry in vector]
         drawn = next((k for k, (d, q, _) in enumerate(draws) if (seed, draw, p) == (seed_of_draws, d, q)), None)
-        if MODELS[self.model][3]:
+        if self.model == "affine":
             centres = self.plane_points(core, p, seed, draw, where)
         elif drawn is None:
             centres = draw_centres(self.graph.hash, core.hash, core.n, p, seed, draw, 3, core.places)

@@ -239,12 +239,11 @@ fn full_rank(verdict: &Verdict) -> String {
         Some(Evidence::IntegerMinor(_)) => {
             "a minor of the Jacobian at rational cameras is not zero".into()
         }
-        Some(lower) if lower.is_lower_bound() => {
-            let prime = lower
-                .prime()
-                .map_or_else(String::new, |p| format!(" modulo {p}"));
-            format!("full rank at drawn cameras{prime}")
-        }
+        Some(
+            Evidence::Minor { draw, .. }
+            | Evidence::PlaneFlow { draw, .. }
+            | Evidence::PlaneMinor { draw, .. },
+        ) => format!("full rank at drawn cameras modulo {}", draw.prime),
         _ if !verdict.by_rank.is_empty() => "parts of full rank merge into one body".into(),
         _ => "full rank".into(),
     }

@@ -16,26 +16,6 @@ use sha2::{Digest, Sha256};
 /// The prime modulo which nodes are independent.
 const MERSENNE: u64 = (1 << 61) - 1;
 
-impl Model {
-    /// Whether a centre may be at infinity, or has to (section 14, H1).
-    pub(super) fn may_be(self, at_infinity: bool) -> bool {
-        match self {
-            Self::Projective => true,
-            Self::Calibrated => !at_infinity,
-            Self::Affine => at_infinity,
-        }
-    }
-
-    /// Columns of its matrix for a node (section 3).
-    pub(super) fn width(self) -> usize {
-        match self {
-            Self::Projective => 12,
-            Self::Calibrated => 3,
-            Self::Affine => 2,
-        }
-    }
-}
-
 /// The centres of all nodes.
 pub(super) struct Centres<'a> {
     model: Model,
@@ -96,8 +76,12 @@ impl<'a> Centres<'a> {
         for (v, place) in places.iter().enumerate() {
             let is_zero = |x: &Big<String>| x.0 == "0";
             ensure!(!place.iter().all(is_zero), "the centre of node {v} is zero");
-            let fits = document.model.may_be(is_zero(&place[3]));
-            ensure!(fits, "the centre of node {v} is none of the model");
+            let wrong = match document.model {
+                Model::Projective => false,
+                Model::Calibrated => is_zero(&place[3]),
+                Model::Affine => !is_zero(&place[3]),
+            };
+            ensure!(!wrong, "the centre of node {v} is none of the model");
         }
         let mut centres = Centres {
             model: document.model,

@@ -153,9 +153,13 @@ impl Checker<'_> {
             .map(|class| (&class.bodies, &class.edges));
         let (parts, owner) = structure.partition(part, list)?;
         let model = structure.setting.model;
+        let width = match model {
+            Model::Projective => 12,
+            Model::Calibrated => 3,
+            Model::Affine => 2,
+        };
         ensure!(
-            piece.kernel.len() == model.width() * core.nodes
-                && piece.kernel.iter().all(|x| x.0 < field.p),
+            piece.kernel.len() == width * core.nodes && piece.kernel.iter().all(|x| x.0 < field.p),
             "`kernel` is no vector of residues"
         );
         let vector: Vec<u64> = piece.kernel.iter().map(|x| field.element(x.0)).collect();

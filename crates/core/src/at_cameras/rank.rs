@@ -147,10 +147,7 @@ impl<'a> Placed<'a> {
         let task = self.setting.watch.task(Step::Flows, core.graph.nodes());
         if self.model().in_plane() {
             let directions = PlaneDirections::new(field, &core.graph, &points.plane, &task)?;
-            return Ok((
-                self.model().of_plane(directions.rank()),
-                Matrices::Plane(Box::new(directions)),
-            ));
+            return Ok((4 * directions.rank(), Matrices::Plane(Box::new(directions))));
         }
         let flows = PlaneFlows::new(field, &core.graph, &points.space, &task)?;
         let rigidity = flows.rigidity_rank();

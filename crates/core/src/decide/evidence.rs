@@ -64,7 +64,7 @@ pub enum Evidence {
 
 impl Evidence {
     /// Whether it bounds a rank from below, at one point.
-    pub fn is_lower_bound(&self) -> bool {
+    pub(crate) fn is_lower_bound(&self) -> bool {
         match self {
             Self::Minor { .. }
             | Self::IntegerMinor(_)
@@ -79,7 +79,7 @@ impl Evidence {
     }
 
     /// The prime of its residues, of several the smallest.
-    pub fn prime(&self) -> Option<u64> {
+    fn prime(&self) -> Option<u64> {
         match self {
             Self::Minor { draw, .. }
             | Self::PlaneFlow { draw, .. }

@@ -95,7 +95,7 @@ pub fn rank_in_plane(
     Ok(match model {
         Model::Projective => 4 * plane + 3 * joined.count(),
         Model::Calibrated => plane + joined.count(),
-        Model::Affine => model.of_plane(plane),
+        Model::Affine => 4 * plane,
     })
 }
 
@@ -133,10 +133,6 @@ struct Piece<'a> {
 }
 
 impl Piece<'_> {
-    fn model(&self) -> Model {
-        self.options.question.model
-    }
-
     fn task(&self, step: Step) -> Task<'_> {
         self.options.watch.task(step, self.core.graph.nodes())
     }
@@ -152,7 +148,7 @@ impl Piece<'_> {
             self.separate(rank, &components)?
         };
         // The rank of the piece from that of its core (Corollary 13.12).
-        let rank = self.model().of_plane(full(self.core.total_nodes) - deficit);
+        let rank = 4 * (full(self.core.total_nodes) - deficit);
         Ok(PieceVerdict {
             members: self.members.clone(),
             components,
@@ -221,7 +217,7 @@ impl Piece<'_> {
             (found == components).then(|| vector.iter().map(|&x| field.to_u64(x)).collect())
         };
         let (minor, draw, vector) = self.minor(&self.core, rank, motion)?;
-        let counting = Counting::partition(self.model(), self.assembly, components);
+        let counting = Counting::partition(Model::Affine, self.assembly, components);
         let classes = components.iter().map(|members| self.class(members));
         let classes = Evidence::Classes(classes.collect::<Result<_, _>>()?);
         let kernel = Evidence::Kernel { draw, vector };

@@ -37,23 +37,6 @@ impl Model {
         matches!(self, Self::Affine)
     }
 
-    /// The rank in this model of what has so much of R: four times as much in the affine one.
-    pub const fn of_plane(self, rank: usize) -> usize {
-        match self {
-            Self::Projective | Self::Calibrated => rank,
-            Self::Affine => 4 * rank,
-        }
-    }
-
-    /// The dimension of the trivial motions: what two frames differ by.
-    pub const fn freedom(self) -> usize {
-        match self {
-            Self::Projective => 15,
-            Self::Calibrated => 4,
-            Self::Affine => 12,
-        }
-    }
-
     /// The rank of a finite solvable graph, or of a body, with n >= 2 nodes: 11 n - 15 of J_P
     /// (Theorem 1.3 of docs/theory.md; Theorem 1 of the paper), in the calibrated model
     /// 3 n - 4 of N (Lemma 4.8), in the affine model 8 n - 12, four times that of R (Theorem

@@ -6,7 +6,10 @@ impl Model {
     /// How often the rank of a proof goes into that of a verdict, which is four times that of N in
     /// the affine model.
     pub(super) const fn times(self) -> usize {
-        self.of_plane(1)
+        match self {
+            Self::Projective | Self::Calibrated => 1,
+            Self::Affine => 4,
+        }
     }
 
     /// The rank of a body of so many nodes: of J_P, or of N.
