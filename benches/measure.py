@@ -493,8 +493,6 @@ def main():
         if name == "sparse":
             command.add_argument("--graphs", nargs="+", default=["grid", "city", "3-regular", "4-regular"])
             command.add_argument("--nodes", type=int, nargs="+", default=[1000, 2000, 5000, 10000, 20000, 50000])
-        if name == "noticed":
-            command.add_argument("--program", default=VERIFY, help="the `verify` to measure")
         if name == "peers":
             command.add_argument("--nodes", type=int, default=100_000)
         if name == "sequence":

@@ -73,7 +73,7 @@ enum PipelineName {
 
 /// The names of the formats, and what they read.
 fn formats() -> impl TypedValueParser<Value = Format> {
-    let values = Format::ALL.map(|(_, names, help)| {
+    let values = Format::all().map(|(_, names, help)| {
         let aliases = names[1..].iter().copied();
         PossibleValue::new(names[0]).aliases(aliases).help(help)
     });

@@ -121,6 +121,26 @@ impl Bodies {
         self.close(vec![(body, start)]);
     }
 
+    /// Adds a body of three nodes or more, which no body holds.
+    pub(super) fn add_body(&mut self, nodes: &[u32]) {
+        let body = self.push(Body {
+            is_large: true,
+            ..Body::default()
+        });
+        let mut fresh = Vec::new();
+        for &node in nodes {
+            self.tell_others(node);
+            self.take_in(body, node, &mut fresh);
+        }
+        self.close(fresh);
+    }
+
+    /// Whether one body holds all of several nodes.
+    pub(super) fn holds_all(&self, nodes: &[u32]) -> bool {
+        let common = self.common(nodes[0], nodes[1]);
+        common.is_some_and(|body| nodes.iter().all(|&node| self.holds(body, node)))
+    }
+
     /// Merges bodies that are known to be one, and all that follows.
     pub(super) fn join(&mut self, bodies: &[u32]) {
         let mut roots: Vec<u32> = bodies.iter().map(|&body| self.root(body)).collect();
@@ -209,6 +229,21 @@ impl Bodies {
         }
     }
 
+    /// Puts a node into a large body; if another holds it too, it is to be looked at again.
+    fn take_in(&mut self, into: u32, node: u32, fresh: &mut Vec<(u32, u32)>) {
+        let (held, body) = (&mut self.at[node as usize], &mut self.bodies[into as usize]);
+        if let Err(place) = held.large.binary_search(&into) {
+            held.large.insert(place, into);
+            body.nodes.push(node);
+            if held.len() > 1 {
+                body.shared.push(node);
+            }
+        }
+        if held.len() > 1 {
+            fresh.push((into, node));
+        }
+    }
+
     /// Merges bodies into the largest, and names the nodes at which it is to be looked at again.
     fn merge(&mut self, mut parts: Vec<u32>) -> Vec<(u32, u32)> {
         if parts.len() < 2 {
@@ -234,7 +269,6 @@ impl Bodies {
             if let ([a, b], false) = (&nodes[..], is_large) {
                 self.of_pair.remove(&(*a.min(b), *a.max(b)));
             }
-            let body = &mut self.bodies[into as usize];
             for node in nodes {
                 let held = &mut self.at[node as usize];
                 let list = if is_large {
@@ -243,16 +277,7 @@ impl Bodies {
                     &mut held.pairs
                 };
                 list.retain(|&k| k != part);
-                if let Err(place) = held.large.binary_search(&into) {
-                    held.large.insert(place, into);
-                    body.nodes.push(node);
-                    if held.len() > 1 {
-                        body.shared.push(node);
-                    }
-                }
-                if held.len() > 1 {
-                    fresh.push((into, node));
-                }
+                self.take_in(into, node, &mut fresh);
             }
         }
         let (at, body) = (&self.at, &mut self.bodies[into as usize]);

@@ -8,6 +8,7 @@ mod bodies;
 #[cfg(test)]
 mod tests;
 
+use crate::contract::Contraction;
 use crate::decide::{Claim, Known, Options, Strength, Value, VerdictError, decide};
 use crate::graph::{Graph, LabelledGraph, Lists, PairedWithItself, UnionFind};
 use crate::watch::Watch;
@@ -124,29 +125,43 @@ impl Verifier {
         let [a, b] = [a, b].map(|node| self.number(node));
         self.pairs
             .push((self.names[a as usize], self.names[b as usize]));
-        if self.bodies.common(a, b).is_some() {
-            return Ok(false);
-        }
-        for node in [a, b] {
-            let part = self.parts.find(node as usize) as u32;
-            self.decided.remove(&part);
-        }
-        self.parts.union(a as usize, b as usize);
-        self.bodies.add(a, b);
-        self.answer = None;
-        Ok(true)
+        Ok(self.add(a, b))
     }
 
-    /// Adds pairs, in their order.
+    /// Adds pairs. Their order does not matter: they are contracted by themselves first, at the cost of
+    /// [`Contraction::new`], and its bodies arrive as [`add_pair`](Self::add_pair) has it for pairs.
     ///
     /// # Errors
-    /// The first node that is paired with itself; the pairs before it are added.
+    /// The first node that is paired with itself; nothing is added then.
+    ///
+    /// # Panics
+    /// With 2^32 nodes or pairs.
     pub fn add_pairs(
         &mut self,
         pairs: impl IntoIterator<Item = (u32, u32)>,
     ) -> Result<(), PairedWithItself<u32>> {
-        let mut pairs = pairs.into_iter();
-        pairs.try_for_each(|(a, b)| self.add_pair(a, b).map(drop))
+        let pairs: Vec<(u32, u32)> = pairs.into_iter().collect();
+        if let [(a, b)] = pairs[..] {
+            return self.add_pair(a, b).map(drop);
+        }
+        let graph = LabelledGraph::from_pairs(pairs.iter().copied())?;
+        let contraction = Contraction::new(graph.graph(), self.options.question.model);
+        let names = (0..graph.graph().nodes() as u32).map(|node| *graph.label(node));
+        let numbers: Vec<u32> = names.map(|name| self.number(name)).collect();
+        let number = |node: u32| numbers[node as usize];
+        for &body in &contraction.finals {
+            let nodes = &contraction.bodies[body as usize].nodes;
+            let nodes: Vec<u32> = nodes.iter().map(|&node| number(node)).collect();
+            if !self.bodies.holds_all(&nodes) {
+                self.tie(&nodes);
+                self.bodies.add_body(&nodes);
+            }
+        }
+        for (a, b) in contraction.loose {
+            self.add(number(a), number(b));
+        }
+        self.pairs.extend(pairs);
+        Ok(())
     }
 
     /// What the pairs so far determine. It decides the parts that pairs have reached since, at the cost of
@@ -231,6 +246,25 @@ impl Verifier {
         let graph = self.graph();
         let verdict = decide(graph.graph(), &self.options)?;
         Ok(verdict.certificate(graph.graph()).to_string())
+    }
+
+    fn add(&mut self, a: u32, b: u32) -> bool {
+        let is_new = self.bodies.common(a, b).is_none();
+        if is_new {
+            self.tie(&[a, b]);
+            self.bodies.add(a, b);
+        }
+        is_new
+    }
+
+    /// Puts nodes into one part, which is to be decided again.
+    fn tie(&mut self, nodes: &[u32]) {
+        for &node in nodes {
+            let part = self.parts.find(node as usize) as u32;
+            self.decided.remove(&part);
+            self.parts.union(nodes[0] as usize, node as usize);
+        }
+        self.answer = None;
     }
 
     fn number(&mut self, node: u32) -> u32 {

@@ -67,12 +67,18 @@ fn compare(sequences: u64, seed: u64) {
         let mut verifier = Verifier::new(options.clone()).unwrap();
         let pairs = sequence(&mut random);
         let mut told: Vec<Vec<u32>> = Vec::new();
+        let mut waiting = Vec::new();
         for (at, &(a, b)) in pairs.iter().enumerate() {
-            verifier.add_pair(a, b).unwrap();
+            // One by one, or several at once.
+            match random.random_range(0..2) {
+                0 => drop(verifier.add_pair(a, b).unwrap()),
+                _ => waiting.push((a, b)),
+            }
             // Many pairs between two questions, or none.
             if random.random_range(0..4) > 0 && at + 1 < pairs.len() {
                 continue;
             }
+            verifier.add_pairs(waiting.drain(..)).unwrap();
             let so_far = &pairs[..=at];
             let (value, components) = from_scratch(so_far, &options);
             let place = format!("sequence {} of seed {seed}, {model}: {so_far:?}", seed + k);
@@ -132,9 +138,10 @@ fn the_certificate_is_that_of_all_pairs() {
 #[test]
 fn what_is_no_pair_or_more_than_pairs_is_refused() {
     let mut verifier = Verifier::new(Options::default()).unwrap();
-    let pairs = verifier.add_pairs([(0, 1), (2, 2), (1, 2)]);
+    verifier.add_pair(0, 1).unwrap();
+    let pairs = verifier.add_pairs([(0, 3), (2, 2), (1, 2)]);
     assert_eq!(pairs, Err(PairedWithItself(2)));
-    assert_eq!(verifier.graph().graph().edges(), [(0, 1)]);
+    assert_eq!(verifier.graph().labels(), [0, 1]);
     let parts = crate::KnownParts::new(3, [vec![0, 1, 2]]).unwrap();
     let asked = crate::Question::with_parts(Model::Projective, parts);
     let refused = Verifier::new(Options::default().question(asked));

@@ -37,38 +37,89 @@ pub enum Document {
     RawMatches,
 }
 
+/// What there is to a format.
+pub(super) struct Facts {
+    /// What it is called in reports.
+    name: &'static str,
+    /// The names on the command line, the first of which is printed; none if its files are always known.
+    pub(super) words: &'static [&'static str],
+    /// What it reads.
+    pub(super) help: &'static str,
+    /// Whether a text is of it that begins with this, which is all of it if it is `whole`.
+    is: fn(&str, bool) -> bool,
+    read: fn(&str, &ListOptions) -> Result<Parsed, Fault>,
+}
+
 impl Document {
-    /// Which of them a text is that begins with `head`, which is all of it if `whole`. Lines of
-    /// neighbours look like sets of cameras, and have to be asked for.
+    /// All of them. Where several know a text, the last one has it.
+    pub(super) const ALL: [Self; 6] = [
+        Self::Stars,
+        Self::RawMatches,
+        Self::ViewSelection,
+        Self::PoseGraph,
+        Self::G2o,
+        Self::GraphMl,
+    ];
+
+    pub(super) const fn facts(self) -> Facts {
+        match self {
+            Self::G2o => Facts {
+                name: "pose graph of g2o",
+                words: &["g2o"],
+                help: "Pose graph of g2o",
+                is: |text, _| g2o::is_g2o(text),
+                read: g2o::read,
+            },
+            Self::GraphMl => Facts {
+                name: "GraphML",
+                words: &["graphml"],
+                help: "Graph in XML",
+                is: |text, _| xml::is_graphml(text),
+                read: xml::read,
+            },
+            // Lines of neighbours look like sets of cameras, and have to be asked for.
+            Self::Stars => Facts {
+                name: "adjacency list",
+                words: &["openmvg-pairs", "adjacency-list"],
+                help: "The first field of every line with each of the others: pairs and stars of OpenMVG, adjacency lists",
+                is: |_, _| false,
+                read: stars::read,
+            },
+            Self::PoseGraph => Facts {
+                name: "pose graph of Open3D",
+                words: &[],
+                help: "",
+                is: |text, _| pipelines::is_pose_graph(text),
+                read: pipelines::pose_graph,
+            },
+            Self::ViewSelection => Facts {
+                name: "MVSNet's pair.txt",
+                words: &[],
+                help: "",
+                is: |text, _| pipelines::is_view_selection(text),
+                read: pipelines::view_selection,
+            },
+            Self::RawMatches => Facts {
+                name: "raw matches of COLMAP",
+                words: &["raw-matches"],
+                help: "Matches of features as COLMAP imports them: two names, and below them two numbers a line",
+                is: raw_matches::is_raw,
+                read: raw_matches::read,
+            },
+        }
+    }
+
+    /// Which of them a text is that begins with `head`, which is all of it if `whole`.
     pub(super) fn of(head: &[u8], whole: bool) -> Option<Self> {
         // What is no UTF-8 is refused by the reader, with the line.
         let text = &*String::from_utf8_lossy(head);
-        [
-            (Self::GraphMl, xml::is_graphml(text)),
-            (Self::G2o, g2o::is_g2o(text)),
-            (Self::PoseGraph, pipelines::is_pose_graph(text)),
-            (Self::ViewSelection, pipelines::is_view_selection(text)),
-            (Self::RawMatches, raw_matches::is_raw(text, whole)),
-        ]
-        .into_iter()
-        .find_map(|(document, is)| is.then_some(document))
+        let mut all = Self::ALL.into_iter();
+        all.rfind(|document| (document.facts().is)(text, whole))
     }
 
     /// Whether weights of its pairs are read.
     pub(super) fn has_weights(self) -> bool {
         self == Self::RawMatches
-    }
-
-    /// What it is called in reports.
-    fn name(self) -> &'static str {
-        match self {
-            Self::G2o => "pose graph of g2o",
-            Self::GraphMl => "GraphML",
-            Self::PoseGraph => "pose graph of Open3D",
-            Self::ViewSelection => "MVSNet's pair.txt",
-            Self::Stars => "adjacency list",
-            Self::RawMatches => "raw matches of COLMAP",
-        }
     }
 }
 
@@ -90,15 +141,9 @@ pub(super) fn read_with(
     let mut bytes = Vec::new();
     input.read_to_end(&mut bytes).map_err(Problem::from)?;
     let text = text(bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(&bytes))?;
-    let mut parsed = match document {
-        Document::G2o => g2o::read(text, options),
-        Document::GraphMl => xml::read(text, options),
-        Document::PoseGraph => pipelines::pose_graph(text, options),
-        Document::ViewSelection => pipelines::view_selection(text, options),
-        Document::Stars => stars::read(text, options),
-        Document::RawMatches => raw_matches::read(text, options),
-    }?;
-    parsed.read.format = document.name().into();
+    let Facts { name, read, .. } = document.facts();
+    let mut parsed = read(text, options)?;
+    parsed.read.format = name.into();
     Ok(parsed)
 }
 

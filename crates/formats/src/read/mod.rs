@@ -88,61 +88,48 @@ pub enum Format {
 
 impl Format {
     /// The formats: the names on the command line, the first of which is printed, and what it reads.
-    pub const ALL: [(Self, &'static [&'static str], &'static str); 9] = [
-        (Self::Edges, &["edges", "edge-list"], EDGES),
-        (Self::Graph6, &["graph6"], "One graph a line"),
-        (Self::Sparse6, &["sparse6"], "One graph a line"),
-        (Self::Matlab, &["matlab"], "Adjacency matrix, MATLAB 5"),
-        (
-            Self::MatrixMarket,
-            &["matrix-market"],
-            "Adjacency matrix, MatrixMarket coordinates",
-        ),
-        (
-            Self::Document(Document::Stars),
-            &["openmvg-pairs", "adjacency-list"],
-            STARS,
-        ),
-        (
-            Self::Document(Document::RawMatches),
-            &["raw-matches"],
-            RAW_MATCHES,
-        ),
-        (Self::Document(Document::G2o), &["g2o"], "Pose graph of g2o"),
-        (
-            Self::Document(Document::GraphMl),
-            &["graphml"],
-            "Graph in XML",
-        ),
-    ];
+    pub fn all() -> impl Iterator<Item = (Self, &'static [&'static str], &'static str)> {
+        let own: [(Self, &'static [&'static str], _); 5] = [
+            (Self::Edges, &["edges", "edge-list"], EDGES),
+            (Self::Graph6, &["graph6"], "One graph a line"),
+            (Self::Sparse6, &["sparse6"], "One graph a line"),
+            (Self::Matlab, &["matlab"], "Adjacency matrix, MATLAB 5"),
+            (
+                Self::MatrixMarket,
+                &["matrix-market"],
+                "Adjacency matrix, MatrixMarket coordinates",
+            ),
+        ];
+        let documents = Document::ALL.into_iter().map(|document| {
+            let facts = document.facts();
+            (Self::Document(document), facts.words, facts.help)
+        });
+        let asked = documents.filter(|(_, words, _)| !words.is_empty());
+        own.into_iter().chain(asked)
+    }
 }
 
 const EDGES: &str =
     "One pair a line: the first two fields, whatever follows; one field alone is a camera";
-const STARS: &str = "The first field of every line with each of the others: pairs and stars of OpenMVG, adjacency lists";
-const RAW_MATCHES: &str =
-    "Matches of features as COLMAP imports them: two names, and below them two numbers a line";
 
 impl FromStr for Format {
     type Err = UnknownFormat;
 
     fn from_str(name: &str) -> Result<Self, UnknownFormat> {
-        let mut all = Self::ALL.iter();
-        let found = all.find(|(_, names, _)| names.contains(&name));
-        found.map(|(format, ..)| *format).ok_or(UnknownFormat)
+        let found = Self::all().find(|(_, names, _)| names.contains(&name));
+        found.map(|(format, ..)| format).ok_or(UnknownFormat)
     }
 }
 
 /// A word that is not the name of a format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the formats are {}", Format::ALL.map(|(_, names, _)| names[0]).join(", "))]
+#[error("the formats are {}", Format::all().map(|(_, names, _)| names[0]).collect::<Vec<_>>().join(", "))]
 pub struct UnknownFormat;
 
 /// The name on the command line, which [`FromStr`] reads.
 impl fmt::Display for Format {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut all = Self::ALL.iter();
-        let found = all.find(|(format, ..)| format == self);
+        let found = Self::all().find(|(format, ..)| format == self);
         f.pad(found.map_or("", |(_, names, _)| names[0]))
     }
 }
