@@ -122,12 +122,13 @@ pub fn split(
     let inside: BTreeSet<u32> = parts.iter().flatten().copied().collect();
     let outside = (0..model.images.len() as u32).filter(|v| !inside.contains(v));
     let (mut written, mut points) = (Vec::new(), BTreeSet::new());
+    let digits = parts.len().to_string().len().max(3);
     outputs.folder(folder, |new| {
         for (number, images) in (1..).zip(parts) {
             let place = |&v: &u32| (model.images[v as usize].id, first[v as usize] as u32);
             let places: HashMap<u32, u32> = images.iter().map(place).collect();
             let part = model.of_images(|image| places.get(&image.id).copied());
-            let folder = format!("{number:03}");
+            let folder = format!("{number:0digits$}");
             fs::create_dir(new.join(&folder))?;
             part.write(&new.join(&folder))?;
             points.extend(part.points.iter().map(|point| point.id));

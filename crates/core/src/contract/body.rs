@@ -15,7 +15,7 @@ pub enum Seed {
 }
 
 /// Something that joins a body: an edge, or an earlier body.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Part {
     /// An edge `(i, j)`, `i < j`.
     Edge(u32, u32),

@@ -32,35 +32,45 @@ pub(super) fn grow(remaining: &mut Adjacency, at: &impl Position) -> Vec<Body> {
     let (order, rank) = by_falling_degree(remaining);
     let mut state = Growth::new(n);
     let mut near = vec![NONE; n];
-    let mut refused_by = vec![NONE; n];
     let mut bodies: Vec<Body> = Vec::new();
     for &v in &order {
         for &w in remaining.neighbours(v) {
             near[w as usize] = v;
         }
+        let before = bodies.len();
         let mut next = 0;
+        // Neighbours refused once are refused for good, as edges only go.
         while let Some(&w) = remaining.neighbours(v).get(next) {
-            let closes_triangle = rank[w as usize] > rank[v as usize]
+            next += 1;
+            // The edge may have gone to a body meanwhile.
+            let closes_triangle = near[w as usize] == v
+                && rank[w as usize] > rank[v as usize]
                 && remaining
                     .neighbours(w)
                     .iter()
                     .any(|&x| near[x as usize] == v && at.spans(v, w, x));
-            if !closes_triangle {
-                refused_by[w as usize] = v;
-                next += 1;
-                continue;
+            if closes_triangle {
+                let marked = Marked {
+                    node: v,
+                    near: &near,
+                };
+                let k = bodies.len() as u32;
+                let grown = state.grow(vec![v, w], k, Some(marked), remaining, at);
+                for &u in &grown.nodes {
+                    near[u as usize] = NONE;
+                }
+                bodies.push(Body {
+                    seed: Seed::Edge(v.min(w), v.max(w)),
+                    add: grown.add,
+                    merge: Vec::new(),
+                    nodes: grown.nodes,
+                    edges: grown.edges,
+                    scaled: false,
+                });
             }
-            let k = bodies.len() as u32;
-            let body = state.body_from_edge(v, w, k, remaining, at);
-            for &u in &body.nodes {
-                near[u as usize] = NONE;
-            }
-            // Neighbours refused once are refused for good, as edges only go; the
-            // body's own have left the list of v.
-            next = remaining
-                .neighbours(v)
-                .partition_point(|&x| refused_by[x as usize] == v);
-            bodies.push(body);
+        }
+        if bodies.len() > before {
+            remaining.retain(v, |x| near[x as usize] == v);
         }
     }
     bodies
@@ -119,24 +129,6 @@ impl Growth {
     }
 
     /// Body number `k`, grown from the edge v-w.
-    pub(super) fn body_from_edge(
-        &mut self,
-        v: u32,
-        w: u32,
-        k: u32,
-        remaining: &mut Adjacency,
-        at: &impl Position,
-    ) -> Body {
-        let grown = self.grow(vec![v, w], k, None, remaining, at);
-        Body {
-            seed: Seed::Edge(v.min(w), v.max(w)),
-            add: grown.add,
-            merge: Vec::new(),
-            nodes: grown.nodes,
-            edges: grown.edges,
-            scaled: false,
-        }
-    }
 
     /// Grows a body from some nodes until no node outside is seen twice, but on one line, and removes its edges
     /// from the lists of its nodes in `remaining`, except from that of the marked one, which is
@@ -168,31 +160,23 @@ impl Growth {
             }
             for &x in remaining.neighbours(u) {
                 let visit = &mut self.0[x as usize];
-                if visit.stamp == joined {
-                    visit.edges += 1;
-                } else if visit.stamp == reached {
-                    // All nodes that it was seen from and did not join by are on one line with it.
-                    visit.edges += 1;
-                    if !at.spans(x, visit.from, u) {
+                if visit.stamp != joined && visit.stamp != reached {
+                    let marked = seen_by_marked(x);
+                    *visit = Visit {
+                        stamp: reached,
+                        from: marked.map_or(u, |marked| marked.node),
+                        edges: 1,
+                    };
+                    if marked.is_none() {
                         continue;
                     }
+                }
+                visit.edges += 1;
+                // All nodes that it was seen from and did not join by are on one line with it.
+                if visit.stamp == reached && at.spans(x, visit.from, u) {
                     visit.stamp = joined;
                     nodes.push(x);
                     add.push([x, visit.from, u]);
-                } else if let Some(marked) = seen_by_marked(x) {
-                    *visit = Visit {
-                        stamp: joined,
-                        from: marked.node,
-                        edges: 2,
-                    };
-                    nodes.push(x);
-                    add.push([x, marked.node, u]);
-                } else {
-                    *visit = Visit {
-                        stamp: reached,
-                        from: u,
-                        edges: 1,
-                    };
                 }
             }
         }

@@ -3,7 +3,10 @@
 use super::body::{Body, Merge, Part, Seed};
 use super::position::Position;
 use crate::graph::{Adjacency, Lists};
-use std::collections::{HashMap, VecDeque};
+use std::collections::{HashMap, HashSet, VecDeque};
+
+/// A node may be a hub with more bodies and edges around it than so many; tests have no large graphs.
+const HUB: usize = if cfg!(test) { 3 } else { 64 };
 
 /// For every node the bodies that contain it, by the numbers they had when it joined them,
 /// and which body each of those has become part of.
@@ -45,6 +48,11 @@ impl Owners {
         root
     }
 
+    /// How many bodies contained a node at some time.
+    fn count(&self, v: u32) -> usize {
+        self.first.of(v as usize).len() + self.joined.get(&v).map_or(0, Vec::len)
+    }
+
     /// The bodies that contain a node, perhaps with repetitions.
     fn of(&self, v: u32) -> impl Iterator<Item = u32> {
         let joined = self.joined.get(&v).map_or(&[][..], |list| list);
@@ -64,6 +72,10 @@ impl Owners {
 /// Bodies are taken by falling size, round after round until nothing changes. Of
 /// three bodies that pairwise share a node the largest finds the other two, so a body
 /// is only ever searched by larger ones that touch it.
+///
+/// A body does not search around its hub, where all others would search the same. Two parts that touch it are found
+/// from its other nodes, or one of them is, and the hub knows whether the other meets that one. A hub knows what
+/// was around it when the round began to ask, so what merged since may wait for the next round.
 pub(super) fn close(
     bodies: &mut Vec<Body>,
     remaining: &Adjacency,
@@ -80,6 +92,7 @@ pub(super) fn close(
             .filter(|&k| !bodies[k as usize].nodes.is_empty())
             .collect();
         order.sort_by_key(|&k| std::cmp::Reverse(bodies[k as usize].nodes.len()));
+        let mut hubs = Hubs::default();
         for k in order {
             if bodies[k as usize].nodes.is_empty() {
                 continue;
@@ -90,6 +103,8 @@ pub(super) fn close(
                 remaining,
                 at,
                 inside: &mut inside,
+                hubs: &mut hubs,
+                hub: None,
                 stamp,
                 nodes: Vec::new(),
                 queue: VecDeque::new(),
@@ -110,6 +125,15 @@ pub(super) fn close(
     owners
 }
 
+/// What is around hubs, as far as somebody asked in this round.
+#[derive(Default)]
+struct Hubs {
+    /// The bodies and the loose edges at each.
+    around: HashMap<u32, HashSet<Part>>,
+    /// What holds a hub and another node.
+    between: HashMap<(u32, u32), Option<Part>>,
+}
+
 /// One body absorbing whatever the rules allow.
 struct Absorption<'a, P> {
     bodies: &'a mut Vec<Body>,
@@ -119,6 +143,9 @@ struct Absorption<'a, P> {
     at: &'a P,
     /// The stamp of the absorption that the node is inside of.
     inside: &'a mut [u32],
+    hubs: &'a mut Hubs,
+    /// The node of the body around which there is more than around all its others.
+    hub: Option<u32>,
     stamp: u32,
     /// Nodes of the body; grows.
     nodes: Vec<u32>,
@@ -144,8 +171,11 @@ impl<P: Position> Absorption<'_, P> {
     fn run(&mut self, k: u32) -> bool {
         let own = std::mem::take(&mut self.bodies[k as usize].nodes);
         self.take_in(&own);
+        self.hub = self.find_hub(&own);
         while let Some(a) = self.queue.pop_front() {
-            self.search(a);
+            if self.hub != Some(a) {
+                self.search(a);
+            }
         }
         let nodes = std::mem::take(&mut self.nodes);
         if self.merges.is_empty() {
@@ -170,6 +200,13 @@ impl<P: Position> Absorption<'_, P> {
             scaled: false,
         });
         true
+    }
+
+    fn find_hub(&self, nodes: &[u32]) -> Option<u32> {
+        let around = |&v: &u32| self.owners.count(v) + self.remaining.degree(v);
+        let hub = nodes.iter().max_by_key(|&v| around(v))?;
+        let all: usize = nodes.iter().map(around).sum();
+        (around(hub) > HUB && 2 * around(hub) > all).then_some(*hub)
     }
 
     fn is_inside(&self, v: u32) -> bool {
@@ -266,6 +303,9 @@ impl<P: Position> Absorption<'_, P> {
         }
         let Some(&(other, b)) = self.reached.get(&x) else {
             self.reached.insert(x, (part, a));
+            if let Some((hub, second)) = self.at_hub(x).filter(|(_, second)| *second != part) {
+                self.reach(x, second, hub);
+            }
             return;
         };
         // From the same node: if these are two bodies they share two nodes, which one
@@ -279,5 +319,28 @@ impl<P: Position> Absorption<'_, P> {
         });
         self.absorb(other);
         self.absorb(part);
+    }
+
+    /// The hub, and what holds it and x outside; a body that is larger than this one finds it by itself.
+    fn at_hub(&mut self, x: u32) -> Option<(u32, Part)> {
+        let hub = self.hub?;
+        let (owners, bodies) = (&*self.owners, &*self.bodies);
+        let between = self.hubs.between.entry((hub, x)).or_insert_with(|| {
+            let around = self.hubs.around.entry(hub).or_insert_with(|| {
+                let loose = self.remaining.neighbours(hub).iter();
+                let loose = loose.map(|&v| Part::edge(hub, v));
+                owners.of(hub).map(Part::Body).chain(loose).collect()
+            });
+            let mut parts = owners.of(x).map(Part::Body).chain([Part::edge(hub, x)]);
+            parts.find(|part| around.contains(part))
+        });
+        match (*between)? {
+            Part::Body(k) => {
+                let k = owners.current(k);
+                let size = bodies[k as usize].nodes.len();
+                (0 < size && size <= self.nodes.len()).then_some((hub, Part::Body(k)))
+            }
+            edge => Some((hub, edge)),
+        }
     }
 }
