@@ -100,16 +100,13 @@ fn merged(bodies: &mut [Body], first: Part, merge: Merge) -> Body {
     }
     nodes.sort_unstable();
     nodes.dedup();
+    let seed = match first {
+        Part::Edge(i, j) => Seed::Edge(i, j),
+        Part::Body(k) => Seed::Body(k),
+    };
     Body {
-        seed: match first {
-            Part::Edge(i, j) => Seed::Edge(i, j),
-            Part::Body(k) => Seed::Body(k),
-        },
-        add: Vec::new(),
         merge: vec![merge],
-        nodes,
-        edges,
-        scaled: false,
+        ..Body::new(seed, nodes, edges)
     }
 }
 

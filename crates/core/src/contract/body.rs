@@ -139,16 +139,22 @@ pub struct Body {
 }
 
 impl Body {
+    /// Nodes that cover so many edges, of unknown scale, without what joined the seed.
+    pub(super) fn new(seed: Seed, nodes: Vec<u32>, edges: usize) -> Self {
+        let (add, merge, scaled) = (Vec::new(), Vec::new(), false);
+        Self {
+            seed,
+            add,
+            merge,
+            nodes,
+            edges,
+            scaled,
+        }
+    }
+
     /// A set of nodes that is known, before anything has joined it.
     pub(crate) fn known(nodes: &[u32]) -> Self {
-        Self {
-            seed: Seed::Known,
-            add: Vec::new(),
-            merge: Vec::new(),
-            nodes: nodes.to_vec(),
-            edges: 0,
-            scaled: false,
-        }
+        Self::new(Seed::Known, nodes.to_vec(), 0)
     }
 
     /// Sorts its nodes, each of them once.

@@ -89,13 +89,9 @@ pub(super) fn grow(bodies: &mut Vec<Body>, remaining: &mut Adjacency) {
         }
         let edges = std::mem::take(&mut part.edges) + grown.edges;
         bodies.push(Body {
-            seed: Seed::Body(k),
             add: grown.add,
-            merge: Vec::new(),
-            nodes: grown.nodes,
-            edges,
             // Only known displacements are of known scale, and their bodies grow otherwise.
-            scaled: false,
+            ..Body::new(Seed::Body(k), grown.nodes, edges)
         });
     }
 }

@@ -59,13 +59,10 @@ pub(super) fn grow(remaining: &mut Adjacency, at: &impl Position) -> Vec<Body> {
                 for &u in &grown.nodes {
                     near[u as usize] = NONE;
                 }
+                let seed = Seed::Edge(v.min(w), v.max(w));
                 bodies.push(Body {
-                    seed: Seed::Edge(v.min(w), v.max(w)),
                     add: grown.add,
-                    merge: Vec::new(),
-                    nodes: grown.nodes,
-                    edges: grown.edges,
-                    scaled: false,
+                    ..Body::new(seed, grown.nodes, grown.edges)
                 });
             }
         }

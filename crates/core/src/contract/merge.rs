@@ -192,12 +192,8 @@ impl<P: Position> Absorption<'_, P> {
             self.owners.joined.entry(v).or_default().push(new);
         }
         self.bodies.push(Body {
-            seed: Seed::Body(k),
-            add: Vec::new(),
             merge: std::mem::take(&mut self.merges),
-            nodes,
-            edges,
-            scaled: false,
+            ..Body::new(Seed::Body(k), nodes, edges)
         });
         true
     }

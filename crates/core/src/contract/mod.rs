@@ -134,15 +134,8 @@ impl Contraction {
                 let mut nodes: Vec<u32> = held.chain(ends).collect();
                 nodes.sort_unstable();
                 nodes.dedup();
-                Body {
-                    seed: Seed::Rank(k),
-                    add: Vec::new(),
-                    merge: Vec::new(),
-                    nodes,
-                    edges: 0,
-                    // Only known displacements are of known scale, in another model.
-                    scaled: false,
-                }
+                // Only known displacements are of known scale, in another model.
+                Body::new(Seed::Rank(k), nodes, 0)
             })
             .collect();
         bodies.extend(new);

@@ -143,20 +143,14 @@ fn body(
     let seed = Seed::Edge(u.min(p), u.max(p));
     let is_continued = !merge.is_empty() && !grown.add.is_empty();
     let cycle = is_continued.then(|| Body {
-        seed,
-        add: Vec::new(),
         merge: merge.clone(),
-        nodes: Vec::new(),
-        edges: 0,
-        scaled: false,
+        ..Body::new(seed, Vec::new(), 0)
     });
+    let seed = if is_continued { Seed::Body(k) } else { seed };
     let whole = Body {
-        seed: if is_continued { Seed::Body(k) } else { seed },
         add: grown.add,
         merge: if is_continued { Vec::new() } else { merge },
-        nodes: grown.nodes,
-        edges: grown.edges,
-        scaled: false,
+        ..Body::new(seed, grown.nodes, grown.edges)
     };
     cycle.into_iter().chain([whole])
 }

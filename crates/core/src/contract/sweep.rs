@@ -273,22 +273,15 @@ impl Growing {
         let mut merge = Vec::from_iter(self.cycle);
         if !merge.is_empty() && !self.add.is_empty() {
             bodies.push(Body {
-                seed,
-                add: Vec::new(),
                 merge: std::mem::take(&mut merge),
-                nodes: Vec::new(),
-                edges: 0,
-                scaled: false,
+                ..Body::new(seed, Vec::new(), 0)
             });
             seed = Seed::Body(bodies.len() as u32 - 1);
         }
         bodies.push(Body {
-            seed,
             add: self.add,
             merge,
-            nodes,
-            edges,
-            scaled: false,
+            ..Body::new(seed, nodes, edges)
         });
     }
 }
