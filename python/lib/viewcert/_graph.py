@@ -404,8 +404,8 @@ def read(
     Parameters
     ----------
     path : str or path
-        A list of pairs, graph6, sparse6, a MatrixMarket or MATLAB matrix, GraphML, g2o, a COLMAP
-        database; also compressed. (Other files are for networkx, NumPy and h5py, whose graphs and
+        A list of pairs, a COLMAP database, or any other file that ``verify help input`` names; also
+        compressed. (Other files are for networkx, NumPy and h5py, whose graphs and
         arrays :func:`verify` takes.) With `tracks` a
         database, a model (the folder or its points3D file), Bundler's ``bundle.out``, BAL, NVM,
         or a file of OpenMVG, AliceVision or OpenSfM.
