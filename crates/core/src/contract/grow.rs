@@ -26,7 +26,8 @@ struct Visit {
 ///
 /// Nodes are taken by falling degree, and a seed edge is looked for among the
 /// neighbours of lower rank, so that looking costs O(m * arboricity) in all; growth
-/// itself looks at each edge a constant number of times for each body at its ends.
+/// itself looks at each edge a constant number of times for each body at its ends, but never
+/// through the neighbours of the node at hand, which are marked.
 pub(super) fn grow(remaining: &mut Adjacency, at: &impl Position) -> Vec<Body> {
     let n = remaining.nodes();
     let (order, rank) = by_falling_degree(remaining);
@@ -124,8 +125,6 @@ impl Growth {
         };
         Self(vec![never; nodes])
     }
-
-    /// Body number `k`, grown from the edge v-w.
 
     /// Grows a body from some nodes until no node outside is seen twice, but on one line, and removes its edges
     /// from the lists of its nodes in `remaining`, except from that of the marked one, which is
