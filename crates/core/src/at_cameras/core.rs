@@ -13,14 +13,12 @@ pub(super) fn core(contraction: &Contraction, part: &Members, at: &Centres) -> C
     let twice = of_bodies.windows(2).filter(|pair| pair[0] == pair[1]);
     let ends = part.edges.iter().flat_map(|&(i, j)| [i, j]);
     let mut nodes: Vec<u32> = twice.map(|pair| pair[0]).chain(ends.clone()).collect();
-    nodes.sort_unstable();
-    nodes.dedup();
+    crate::graph::sort_once(&mut nodes);
     let frames = part.bodies.iter().map(|k| frame(body(k), &nodes, at));
     let frames: Vec<Vec<(u32, u32)>> = frames.collect();
     let more = frames.iter().flatten().flat_map(|&(a, b)| [a, b]);
     nodes.extend(more);
-    nodes.sort_unstable();
-    nodes.dedup();
+    crate::graph::sort_once(&mut nodes);
 
     let number = |v: u32| nodes.binary_search(&v).expect("a node of the core") as u32;
     let edges = frames.iter().chain([&part.edges]).zip(0u32..);
@@ -40,8 +38,7 @@ pub(super) fn core(contraction: &Contraction, part: &Members, at: &Centres) -> C
         Graph::from_pairs(nodes.len() as u32, pairs).expect("pairs of different nodes");
     assert_eq!(merged, 0, "two members share two nodes that are apart");
     of_bodies.extend(ends);
-    of_bodies.sort_unstable();
-    of_bodies.dedup();
+    crate::graph::sort_once(&mut of_bodies);
     Core {
         total_nodes: of_bodies.len(),
         nodes,

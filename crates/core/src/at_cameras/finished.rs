@@ -386,8 +386,7 @@ impl Units {
             for track in &placed.model.tracks {
                 let mut units: Vec<usize> =
                     track.iter().map(|&v| self.sets.find(v as usize)).collect();
-                units.sort_unstable();
-                units.dedup();
+                crate::graph::sort_once(&mut units);
                 for (k, &a) in units.iter().enumerate() {
                     for &b in units[k + 1..].iter().take(NEIGHBOURS) {
                         *common.entry((a, b)).or_default() += 1;

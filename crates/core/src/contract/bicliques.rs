@@ -98,8 +98,7 @@ fn merged(bodies: &mut [Body], first: Part, merge: Merge) -> Body {
         nodes.extend(more);
         edges += covered;
     }
-    nodes.sort_unstable();
-    nodes.dedup();
+    crate::graph::sort_once(&mut nodes);
     let seed = match first {
         Part::Edge(i, j) => Seed::Edge(i, j),
         Part::Body(k) => Seed::Body(k),

@@ -159,7 +159,6 @@ impl Body {
 
     /// Sorts its nodes, each of them once.
     pub(super) fn sort(&mut self) {
-        self.nodes.sort_unstable();
-        self.nodes.dedup();
+        crate::graph::sort_once(&mut self.nodes);
     }
 }

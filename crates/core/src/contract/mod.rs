@@ -132,8 +132,7 @@ impl Contraction {
                 let held = held.flat_map(|&body| &bodies[body as usize].nodes).copied();
                 let ends = union.edges.iter().flat_map(|&(i, j)| [i, j]);
                 let mut nodes: Vec<u32> = held.chain(ends).collect();
-                nodes.sort_unstable();
-                nodes.dedup();
+                crate::graph::sort_once(&mut nodes);
                 // Only known displacements are of known scale, in another model.
                 Body::new(Seed::Rank(k), nodes, 0)
             })

@@ -239,8 +239,7 @@ impl Assembly {
                 .filter(|pair| pair[0] == pair[1])
                 .map(|pair| pair[0]),
         );
-        nodes.sort_unstable();
-        nodes.dedup();
+        crate::graph::sort_once(&mut nodes);
 
         let number = |v: &u32| nodes.binary_search(v).ok().map(|k| k as u32);
         let mut edges: Vec<(u32, u32, u32)> = Vec::new();
@@ -341,8 +340,7 @@ impl Assembly {
             inner += self.size[body as usize] - shared.len();
             nodes.extend(shared);
         }
-        nodes.sort_unstable();
-        nodes.dedup();
+        crate::graph::sort_once(&mut nodes);
         inner + nodes.len()
     }
 
@@ -420,8 +418,7 @@ fn incidence(part: &Members, shared: &[Vec<u32>]) -> Lists {
         pairs.extend([(member, i), (member, j)]);
     }
     let mut nodes: Vec<u32> = pairs.iter().map(|&(_, v)| v).collect();
-    nodes.sort_unstable();
-    nodes.dedup();
+    crate::graph::sort_once(&mut nodes);
     for (_, v) in &mut pairs {
         *v = (part.len() + nodes.partition_point(|w| w < v)) as u32;
     }

@@ -71,8 +71,7 @@ fn merged(bodies: &mut [Body], first: u32, merge: Vec<Merge>) -> Body {
         nodes.append(&mut body.nodes);
         edges += std::mem::take(&mut body.edges);
     }
-    nodes.sort_unstable();
-    nodes.dedup();
+    crate::graph::sort_once(&mut nodes);
     Body {
         seed: Seed::Body(first),
         add: Vec::new(),

@@ -408,8 +408,7 @@ impl State {
                 ref nodes => bodies.push(Body::known(nodes)),
             }
         }
-        loose.sort_unstable();
-        loose.dedup();
+        crate::graph::sort_once(&mut loose);
         let contraction = Contraction {
             finals: (0..bodies.len() as u32).collect(),
             bodies,

@@ -56,8 +56,7 @@ fn vertices(assembly: &Assembly, placed: &Placed, members: &Members) -> Vec<u32>
     let ends = members.edges.iter().flat_map(|(i, j)| [i, j]);
     let vertices = of_bodies.chain(ends).map(|&v| placed.first(v));
     let mut vertices: Vec<u32> = vertices.collect();
-    vertices.sort_unstable();
-    vertices.dedup();
+    crate::graph::sort_once(&mut vertices);
     vertices
 }
 

@@ -75,8 +75,7 @@ impl Component {
             .chain(self.members.edges.iter().flat_map(|&(i, j)| [i, j]))
             .chain(self.held.iter().copied())
             .collect();
-        nodes.sort_unstable();
-        nodes.dedup();
+        crate::graph::sort_once(&mut nodes);
         nodes
     }
 

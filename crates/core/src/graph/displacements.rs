@@ -105,8 +105,7 @@ impl Displacements {
             sets.union(i as usize, j as usize);
             ends.extend([i, j]);
         }
-        ends.sort_unstable();
-        ends.dedup();
+        crate::graph::sort_once(&mut ends);
         let mut place = vec![None; nodes as usize];
         let mut groups: Vec<Vec<u32>> = Vec::new();
         for v in ends {

@@ -44,8 +44,7 @@ impl KnownParts {
                 all.push(part);
             }
         }
-        all.sort_unstable();
-        all.dedup();
+        crate::graph::sort_once(&mut all);
         Ok(Self(Arc::new(all)))
     }
 

@@ -31,6 +31,7 @@ pub use labelled::{LabelledGraph, PairedWithItself};
 pub use labels::Labels;
 pub use leaves::prune_leaves;
 pub use lists::Lists;
+pub(crate) use sort::sort_once;
 pub use union_find::UnionFind;
 pub use vectors::{CoordinateError, coordinate};
 pub(crate) use vectors::{Hanging, gcd};

@@ -47,6 +47,12 @@ pub(super) fn sort(pairs: &mut Vec<(u32, u32)>, are_increasing: &[bool]) {
     }
 }
 
+/// Sorts a list, and keeps each item once. O(n log n).
+pub(crate) fn sort_once<T: Ord>(list: &mut Vec<T>) {
+    list.sort_unstable();
+    list.dedup();
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

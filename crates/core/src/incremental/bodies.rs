@@ -95,8 +95,7 @@ impl Bodies {
         let Body { nodes, shared, .. } = &self.bodies[body as usize];
         let is_shared = |node: &&u32| self.at[**node as usize].len() > 1;
         let mut outline: Vec<u32> = shared.iter().filter(is_shared).copied().collect();
-        outline.sort_unstable();
-        outline.dedup();
+        crate::graph::sort_once(&mut outline);
         let missing = 2usize.saturating_sub(outline.len());
         let inner = nodes.iter().filter(|node| !is_shared(node)).take(missing);
         outline.extend(inner);
@@ -144,8 +143,7 @@ impl Bodies {
     /// Merges bodies that are known to be one, and all that follows.
     pub(super) fn join(&mut self, bodies: &[u32]) {
         let mut roots: Vec<u32> = bodies.iter().map(|&body| self.root(body)).collect();
-        roots.sort_unstable();
-        roots.dedup();
+        crate::graph::sort_once(&mut roots);
         let fresh = self.merge(roots);
         self.close(fresh);
     }

@@ -318,12 +318,10 @@ impl Verifier {
         let mut components: Vec<(Vec<u32>, Vec<u32>)> = of_parts
             .map(|bodies| {
                 let mut bodies: Vec<u32> = bodies.iter().map(|&k| self.bodies.root(k)).collect();
-                bodies.sort_unstable();
-                bodies.dedup();
+                crate::graph::sort_once(&mut bodies);
                 let nodes = bodies.iter().flat_map(|&body| self.bodies.nodes(body));
                 let mut nodes: Vec<u32> = nodes.map(|&node| self.names[node as usize]).collect();
-                nodes.sort_unstable();
-                nodes.dedup();
+                crate::graph::sort_once(&mut nodes);
                 (nodes, bodies)
             })
             .collect();
@@ -344,8 +342,7 @@ impl Verifier {
     fn decide_part(&mut self, bodies: &[u32]) -> Result<Decided, VerdictError> {
         let outlines: Vec<Vec<u32>> = bodies.iter().map(|&k| self.bodies.outline(k)).collect();
         let mut nodes: Vec<u32> = outlines.iter().flatten().copied().collect();
-        nodes.sort_unstable();
-        nodes.dedup();
+        crate::graph::sort_once(&mut nodes);
         let place = |node: u32| nodes.partition_point(|&x| x < node) as u32;
         // A node that two nodes of a body see is in it.
         let pairs = outlines.iter().flat_map(|outline| {

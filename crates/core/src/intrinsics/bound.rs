@@ -124,8 +124,7 @@ impl Alike {
 fn nodes_of(members: &Members, of: &[usize]) -> Vec<u32> {
     let all = of.iter().flat_map(|&k| &members.all[k].nodes).copied();
     let mut nodes: Vec<u32> = all.collect();
-    nodes.sort_unstable();
-    nodes.dedup();
+    crate::graph::sort_once(&mut nodes);
     nodes
 }
 

@@ -113,8 +113,7 @@ impl Sensors {
     pub(super) fn conditions(&self, nodes: &[u32]) -> (usize, Vec<usize>) {
         let of_nodes = nodes.iter().map(|&node| self.of_node[node as usize]);
         let mut sensors: Vec<usize> = of_nodes.collect();
-        sensors.sort_unstable();
-        sensors.dedup();
+        crate::graph::sort_once(&mut sensors);
         let of_sensors = sensors
             .iter()
             .map(|&sensor| self.classes[sensor].unknowns());

@@ -329,8 +329,7 @@ impl Record {
     pub(super) fn nodes(&self, members: &Members) -> Vec<u32> {
         let sets = self.sets(members).into_iter();
         let mut nodes: Vec<u32> = sets.flat_map(|(nodes, _)| nodes).collect();
-        nodes.sort_unstable();
-        nodes.dedup();
+        crate::graph::sort_once(&mut nodes);
         nodes
     }
 
@@ -499,8 +498,7 @@ impl Record {
             .flat_map(|(k, pairs)| pairs.iter().map(move |&pair| (pair, k)))
             .collect();
         let mut hinges: Vec<u32> = pairs.iter().flat_map(|&((i, j), _)| [i, j]).collect();
-        hinges.sort_unstable();
-        hinges.dedup();
+        crate::graph::sort_once(&mut hinges);
         let place = |v: u32| hinges.binary_search(&v).expect("a hinge") as u32;
         let local = pairs.iter().map(|&((i, j), _)| (place(i), place(j)));
         let local = Graph::new(hinges.len() as u32, local).expect("pairs of the hinges");

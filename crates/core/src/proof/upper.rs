@@ -70,8 +70,7 @@ impl Split {
         };
         let cell = |group: &Vec<u32>| {
             let mut cell: Vec<u32> = group.iter().flat_map(|&part| of_part(part)).collect();
-            cell.sort_unstable();
-            cell.dedup();
+            crate::graph::sort_once(&mut cell);
             cell
         };
         Self {
@@ -132,8 +131,7 @@ impl Members {
         let of_bodies = self.bodies.iter().flat_map(|&k| &bodies[k as usize].nodes);
         let of_edges = self.edges.iter().flat_map(|&(i, j)| [i, j]);
         let mut nodes: Vec<u32> = of_bodies.copied().chain(of_edges).collect();
-        nodes.sort_unstable();
-        nodes.dedup();
+        crate::graph::sort_once(&mut nodes);
         nodes
     }
 }

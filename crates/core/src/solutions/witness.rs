@@ -142,8 +142,7 @@ impl<'a> At<'a> {
     fn second(&self, given: &[Camera<u64>]) -> Option<Vec<Camera<u64>>> {
         let members = &self.lower.place.chart.members;
         let mut shared: Vec<u32> = members.concat();
-        shared.sort_unstable();
-        shared.dedup();
+        crate::graph::sort_once(&mut shared);
         let mut cameras: Vec<Option<Camera<u64>>> = vec![None; self.graph.nodes()];
         for (v, camera) in shared.iter().zip(self.of_shared(&shared)?) {
             cameras[*v as usize] = Some(camera);

@@ -238,8 +238,7 @@ impl Members {
 /// What a block adds to the bound.
 fn of_block(layout: &Layout, held: &[bool], block: &[&Member]) -> usize {
     let mut nodes: Vec<u32> = block.iter().flat_map(|m| &m.nodes).copied().collect();
-    nodes.sort_unstable();
-    nodes.dedup();
+    crate::graph::sort_once(&mut nodes);
     let images: Vec<(usize, u32)> = nodes
         .iter()
         .filter_map(|v| layout.at.get(v).copied())
@@ -249,8 +248,7 @@ fn of_block(layout: &Layout, held: &[bool], block: &[&Member]) -> usize {
         .iter()
         .flat_map(|&(f, k)| [(false, f), (true, k as usize)])
         .collect();
-    vertices.sort_unstable();
-    vertices.dedup();
+    crate::graph::sort_once(&mut vertices);
     let place = |vertex| vertices.binary_search(&vertex).expect("a vertex");
     let mut sets = UnionFind::new(vertices.len());
     for &(f, k) in &images {

@@ -128,8 +128,7 @@ impl Parts {
     pub(super) fn nodes_of(&self, members: &[usize]) -> Vec<u32> {
         let nodes = members.iter().flat_map(|&m| &self.members[m].nodes);
         let mut nodes: Vec<u32> = nodes.copied().collect();
-        nodes.sort_unstable();
-        nodes.dedup();
+        crate::graph::sort_once(&mut nodes);
         nodes
     }
 
