@@ -264,10 +264,7 @@ impl State {
             });
             members[at].extend(nodes);
         }
-        for member in &mut members {
-            member.sort_unstable();
-            member.dedup();
-        }
+        members.iter_mut().for_each(crate::graph::sort_once);
         let joined = std::mem::take(&mut self.joined);
         *self = Self {
             joined,
