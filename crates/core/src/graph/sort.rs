@@ -40,11 +40,18 @@ pub(super) fn orient(nodes: u32, share: &mut [(u32, u32)]) -> Result<bool, Graph
 /// each other. O(m log m), or O(m / share) if they are.
 pub(super) fn sort(pairs: &mut Vec<(u32, u32)>, are_increasing: &[bool]) {
     let follow = |first: usize| pairs[first - 1] < pairs[first];
-    let are_increasing = are_increasing.iter().all(|is| *is);
-    if !are_increasing || !(SHARE..pairs.len()).step_by(SHARE).all(follow) {
-        pairs.par_sort_unstable();
-        pairs.dedup();
+    let increasing = are_increasing.iter().filter(|is| **is).count();
+    if increasing == are_increasing.len() && (SHARE..pairs.len()).step_by(SHARE).all(follow) {
+        return;
     }
+    // Merging the runs of a list that is nearly sorted takes a quarter of the time, and sorting another one in place
+    // half of the memory.
+    if 2 * increasing > are_increasing.len() {
+        pairs.par_sort();
+    } else {
+        pairs.par_sort_unstable();
+    }
+    pairs.dedup();
 }
 
 /// Sorts a list, and keeps each item once. O(n log n).
