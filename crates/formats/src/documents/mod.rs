@@ -41,10 +41,9 @@ pub enum Document {
 pub(super) struct Facts {
     /// What it is called in reports.
     name: &'static str,
-    /// The names on the command line, the first of which is printed; none if its files are always known.
-    pub(super) words: &'static [&'static str],
-    /// What it reads.
-    pub(super) help: &'static str,
+    /// The names on the command line, the first of which is printed, and what it reads; none if its files are always
+    /// known.
+    pub(super) asked: Option<(&'static [&'static str], &'static str)>,
     /// Whether a text is of it that begins with this, which is all of it if it is `whole`.
     is: fn(&str, bool) -> bool,
     read: fn(&str, &ListOptions) -> Result<Parsed, Fault>,
@@ -65,44 +64,44 @@ impl Document {
         match self {
             Self::G2o => Facts {
                 name: "pose graph of g2o",
-                words: &["g2o"],
-                help: "Pose graph of g2o",
+                asked: Some((&["g2o"], "Pose graph of g2o")),
                 is: |text, _| g2o::is_g2o(text),
                 read: g2o::read,
             },
             Self::GraphMl => Facts {
                 name: "GraphML",
-                words: &["graphml"],
-                help: "Graph in XML",
+                asked: Some((&["graphml"], "Graph in XML")),
                 is: |text, _| xml::is_graphml(text),
                 read: xml::read,
             },
             // Lines of neighbours look like sets of cameras, and have to be asked for.
             Self::Stars => Facts {
                 name: "adjacency list",
-                words: &["openmvg-pairs", "adjacency-list"],
-                help: "The first field of every line with each of the others: pairs and stars of OpenMVG, adjacency lists",
+                asked: Some((
+                    &["openmvg-pairs", "adjacency-list"],
+                    "The first field of every line with each of the others: pairs and stars of OpenMVG, adjacency lists",
+                )),
                 is: |_, _| false,
                 read: stars::read,
             },
             Self::PoseGraph => Facts {
                 name: "pose graph of Open3D",
-                words: &[],
-                help: "",
+                asked: None,
                 is: |text, _| pipelines::is_pose_graph(text),
                 read: pipelines::pose_graph,
             },
             Self::ViewSelection => Facts {
                 name: "MVSNet's pair.txt",
-                words: &[],
-                help: "",
+                asked: None,
                 is: |text, _| pipelines::is_view_selection(text),
                 read: pipelines::view_selection,
             },
             Self::RawMatches => Facts {
                 name: "raw matches of COLMAP",
-                words: &["raw-matches"],
-                help: "Matches of features as COLMAP imports them: two names, and below them two numbers a line",
+                asked: Some((
+                    &["raw-matches"],
+                    "Matches of features as COLMAP imports them: two names, and below them two numbers a line",
+                )),
                 is: raw_matches::is_raw,
                 read: raw_matches::read,
             },

@@ -100,12 +100,11 @@ impl Format {
                 "Adjacency matrix, MatrixMarket coordinates",
             ),
         ];
-        let documents = Document::ALL.into_iter().map(|document| {
-            let facts = document.facts();
-            (Self::Document(document), facts.words, facts.help)
+        let documents = Document::ALL.into_iter().filter_map(|document| {
+            let (words, help) = document.facts().asked?;
+            Some((Self::Document(document), words, help))
         });
-        let asked = documents.filter(|(_, words, _)| !words.is_empty());
-        own.into_iter().chain(asked)
+        own.into_iter().chain(documents)
     }
 }
 
