@@ -351,7 +351,7 @@ def tracks(arguments, folder):
 
 
 def hubs(arguments, folder):
-    """Many bodies at one camera, in a ring of paths too long for any rule: contraction alone."""
+    """Many bodies at one camera: contraction alone, in a ring of paths too long for any rule; and triangles, decided."""
     graph = folder / "hub.txt"
     head("bodies", "observations", "bodies left", "reading, CPU s", "with contraction, CPU s")
     for bodies in (5_000, 20_000, 80_000):
@@ -360,6 +360,13 @@ def hubs(arguments, folder):
         read, contracted = compare(commands, arguments.runs)
         found = subprocess.run(commands[1], capture_output=True, text=True, check=True)
         row(bodies, size(graph)[1], found.stdout.split()[-2], sec(read.cpu), sec(contracted.cpu))
+    print()
+    head("triangles at one camera", "verdict and certificate, projective, CPU s")
+    for triangles in (1_000, 10_000, 100_000):
+        ends = ((2 * k + 1, 2 * k + 2) for k in range(triangles))
+        graph.write_text("".join(f"0 {a}\n0 {b}\n{a} {b}\n" for a, b in ends))
+        command = [VERIFY, "--solutions=off", "--certificate", folder / "certificate.json", graph]
+        row(triangles, sec(compare([command], arguments.runs)[0].cpu))
 
 
 # Images and pairs of hloc's Aachen model.
