@@ -199,10 +199,10 @@ impl<P: Position> Absorption<'_, P> {
     }
 
     fn find_hub(&self, nodes: &[u32]) -> Option<u32> {
-        let around = |&v: &u32| self.owners.count(v) + self.remaining.degree(v);
-        let hub = nodes.iter().max_by_key(|&v| around(v))?;
-        let all: usize = nodes.iter().map(around).sum();
-        (around(hub) > HUB && 2 * around(hub) > all).then_some(*hub)
+        let around = |&v: &u32| (self.owners.count(v) + self.remaining.degree(v), v);
+        let (most, hub) = nodes.iter().map(around).max()?;
+        let all: usize = nodes.iter().map(|v| around(v).0).sum();
+        (most > HUB && 2 * most > all).then_some(hub)
     }
 
     fn is_inside(&self, v: u32) -> bool {

@@ -38,8 +38,7 @@ impl KnownParts {
             if let Some(&node) = part.iter().find(|&&node| node >= nodes) {
                 return Err(GraphError::OutOfRange { node, nodes });
             }
-            part.sort_unstable();
-            part.dedup();
+            crate::graph::sort_once(&mut part);
             if part.len() > 1 {
                 all.push(part);
             }

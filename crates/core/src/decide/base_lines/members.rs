@@ -184,8 +184,7 @@ impl Members {
             .map(|(frame, place)| (frame, place.map_or(0, |place| place + 1)))
             .unzip();
         for seen in [&mut frames, &mut places] {
-            seen.sort_unstable();
-            seen.dedup();
+            crate::graph::sort_once(seen);
         }
         places.retain(|&place| place > 0);
         Self {
