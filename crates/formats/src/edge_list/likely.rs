@@ -5,6 +5,8 @@
 
 use std::collections::HashSet;
 
+use rayon::prelude::*;
+
 use super::names::{are_alike, is_image, shape};
 use crate::error::Problem;
 
@@ -147,10 +149,9 @@ impl List<'_> {
             .filter_map(|(_, label)| label.parse().ok());
         let firsts = loops.chain(values.clone().map(|(a, _)| a));
         let falls = values.clone().any(|(a, b)| a > b);
-        let (left, right) = columns(pairs);
-        let ends = left.union(&right).map(|&end| self.integer(end));
-        let all: HashSet<u64> = ends.collect();
-        let (&low, &high) = (all.iter().min()?, all.iter().max()?);
+        let (all, shared) = ends(pairs);
+        let labels = all.iter().map(|&end| self.integer(end));
+        let (low, high) = (labels.clone().min()?, labels.max()?);
         // Graphs that are in order, and have no gaps.
         let in_order = low <= 1 && high - low == all.len() as u64 - 1 && self.width < 9;
         let in_order = in_order && values.clone().all(|(a, b)| a < b);
@@ -163,7 +164,7 @@ impl List<'_> {
             _ if !is_chain && falls && are_different(values.map(|(_, b)| b)) => {
                 return Some(format!("the second column has each number once, {ONCE}"));
             }
-            _ if 4 * left.intersection(&right).count() < all.len() && !in_order => {
+            _ if 4 * shared < all.len() && !in_order => {
                 "the two columns have hardly a number in common"
             }
             [_, _, _, _, ..] if self.left_out == 0 && 4 * pairs.len() < 3 * all.len() => {
@@ -205,17 +206,14 @@ impl List<'_> {
     }
 
     fn of_names(&self, pairs: &[(u32, u32)], labels: &[&str]) -> Option<String> {
-        let (firsts, seconds) = columns(pairs);
-        let all: HashSet<&str> = firsts
-            .union(&seconds)
-            .map(|&end| labels[end as usize])
-            .collect();
-        let shared = firsts.intersection(&seconds).count();
+        let (all, shared) = ends(pairs);
         if 8 * shared >= all.len() {
             return None;
         }
-        let images = self.width < 9 && all.iter().all(|name| is_image(name));
-        let single = firsts.len() == pairs.len() && seconds.len() == pairs.len();
+        let names = all.iter().map(|&end| labels[end as usize]);
+        let images = self.width < 9 && names.clone().all(is_image);
+        let single = are_different(pairs.iter().map(|pair| pair.0))
+            && are_different(pairs.iter().map(|pair| pair.1));
         let what = match pairs {
             &[(a, b)] if images && are_alike(labels[a as usize], labels[b as usize]) => {
                 return None;
@@ -225,7 +223,7 @@ impl List<'_> {
                 "no label is in two lines: a table of things and their names, perhaps"
             }
             _ => {
-                let shapes: HashSet<String> = all.iter().map(|name| shape(name)).collect();
+                let shapes: HashSet<String> = names.map(shape).collect();
                 let alike = shapes.len() < 2 && self.width < 9 && (!single || pairs.len() < 2);
                 return (!alike && !images)
                     .then(|| "hardly any label is in both columns: a table, perhaps".to_owned());
@@ -247,9 +245,21 @@ impl List<'_> {
     }
 }
 
-/// What stands in the first and in the second column.
-fn columns(pairs: &[(u32, u32)]) -> (HashSet<u32>, HashSet<u32>) {
-    pairs.iter().copied().unzip()
+/// What stands in any column, ascending, and how much of it in both. O(m log m).
+fn ends(pairs: &[(u32, u32)]) -> (Vec<u32>, usize) {
+    let once = |mut ends: Vec<u32>| {
+        // Lists of tracks repeat one end in neighbouring lines.
+        ends.dedup();
+        ends.par_sort_unstable();
+        ends.dedup();
+        ends
+    };
+    let first = once(pairs.iter().map(|pair| pair.0).collect());
+    let second = once(pairs.iter().map(|pair| pair.1).collect());
+    let both = first.len() + second.len();
+    let all = once([first, second].concat());
+    let shared = both - all.len();
+    (all, shared)
 }
 
 /// Whether nothing occurs twice.
