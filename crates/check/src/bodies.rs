@@ -1,16 +1,63 @@
 //! Rigid bodies, rebuilt step by step (section 5 of the specification; theory, Theorems 4.1, 4.9,
 //! 10.3 and 13.9; 4.14 and 13.16 for those from the start, Proposition 4.15 for those by rank).
 
-use crate::core::{Core, Joined, sorted};
+use crate::core::{Core, Joined};
 use crate::document::{Body, Merge, Piece, Seed, Source};
 use crate::elimination::SPARSE;
 use crate::graph::Graph;
 use crate::lower::check_rigid;
 use crate::rejection::{Checked, Failure, Within, ensure};
 use crate::setting::Setting;
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
-type Nodes = HashSet<u32>;
+/// A set of nodes, as the bits of words: of each 64 numbers in a row those that are in it.
+#[derive(Default)]
+pub(crate) struct Nodes(HashMap<u32, u64>);
+
+impl Nodes {
+    fn contains(&self, node: u32) -> bool {
+        let word = self.0.get(&(node / 64));
+        word.is_some_and(|word| word >> (node % 64) & 1 == 1)
+    }
+
+    /// Whether the node is new.
+    fn insert(&mut self, node: u32) -> bool {
+        let word = self.0.entry(node / 64).or_default();
+        let before = std::mem::replace(word, *word | 1 << (node % 64));
+        before != *word
+    }
+
+    /// The smaller set goes into the larger one, so that all unions together take n log n steps.
+    fn unite(&mut self, mut other: Nodes) {
+        if other.0.len() > self.0.len() {
+            std::mem::swap(self, &mut other);
+        }
+        for (at, word) in other.0 {
+            *self.0.entry(at).or_default() |= word;
+        }
+    }
+
+    /// In increasing order.
+    pub(crate) fn list(&self) -> Vec<u32> {
+        let mut words: Vec<(&u32, &u64)> = self.0.iter().collect();
+        words.sort_unstable();
+        let nodes = words.into_iter().flat_map(|(at, word)| {
+            let bits = (0..64).filter(move |bit| word >> bit & 1 == 1);
+            bits.map(move |bit| 64 * at + bit)
+        });
+        nodes.collect()
+    }
+}
+
+impl FromIterator<u32> for Nodes {
+    fn from_iter<I: IntoIterator<Item = u32>>(list: I) -> Nodes {
+        let mut nodes = Nodes::default();
+        list.into_iter().for_each(|node| {
+            nodes.insert(node);
+        });
+        nodes
+    }
+}
 
 /// A body, as long as no other consumes it.
 pub(crate) struct Built {
@@ -74,7 +121,6 @@ impl Builder<'_> {
             Seed::Rank(members) => self.by_rank(members),
         };
         let mut built = seed.within(|| "seed".into())?;
-        built.nodes.reserve(body.add.len());
         for (k, &[v, a, b]) in body.add.iter().enumerate() {
             let added = self.add(&mut built.nodes, v, [a, b]);
             added.within(|| format!("add[{k}]"))?;
@@ -99,8 +145,8 @@ impl Builder<'_> {
             let held = self.earlier.get(body as usize).and_then(Option::as_ref);
             let wrong = || format!("body {body} is not an earlier one, or is consumed");
             let held = held.ok_or_else(|| Failure::rejected(wrong()))?;
-            meter.charge(SPARSE * held.nodes.len() as u64)?;
-            lists.push(sorted(held.nodes.iter().copied()));
+            lists.push(held.nodes.list());
+            meter.charge(SPARSE * lists[lists.len() - 1].len() as u64)?;
         }
         for &pair in &members.edges {
             self.graph.edge(pair)?;
@@ -136,7 +182,7 @@ impl Builder<'_> {
     fn take(&mut self, source: Source) -> Checked<Built> {
         match source {
             Source::Edge(pair) => self.graph.edge(pair).map(|_| Built {
-                nodes: Nodes::from(pair),
+                nodes: pair.into_iter().collect(),
                 scaled: false,
                 unique: true,
             }),
@@ -152,7 +198,7 @@ impl Builder<'_> {
     fn add(&self, nodes: &mut Nodes, v: u32, [a, b]: [u32; 2]) -> Checked<()> {
         ensure!(a != b, "the two nodes of the body are the same");
         for node in [a, b] {
-            ensure!(nodes.contains(&node), "node {node} is not in the body");
+            ensure!(nodes.contains(node), "node {node} is not in the body");
             let joined = self.graph.edge([v.min(node), v.max(node)]).is_ok();
             ensure!(joined, "{v} and {node} are not joined by an edge");
         }
@@ -186,13 +232,13 @@ impl Builder<'_> {
             .collect();
         for (node, which) in step.at.iter().zip(places) {
             ensure!(
-                which.iter().all(|&k| members[k].contains(node)),
+                which.iter().all(|&k| members[k].contains(*node)),
                 "node {node} is not where the merge needs it"
             );
         }
         match step.at[..] {
             [_, _, _, ref others @ ..] if others.len() == 3 => ensure!(
-                others.iter().all(|node| !body.nodes.contains(node)),
+                others.iter().all(|&node| !body.nodes.contains(node)),
                 "one of the last three nodes of a tripod is in the body"
             ),
             [a, b, c, d, e, f, g] => check_link([a, b, c, d, e, f, g], members[0], members[1])?,
@@ -200,7 +246,9 @@ impl Builder<'_> {
         }
         body.scaled |= parts.iter().any(|part| part.scaled);
         body.unique &= parts.iter().all(|part| part.unique);
-        unite(&mut body.nodes, parts.into_iter().map(|part| part.nodes));
+        for part in parts {
+            body.nodes.unite(part.nodes);
+        }
         Ok(())
     }
 
@@ -248,9 +296,9 @@ impl Builder<'_> {
 
 /// What a link between two bodies asks for besides where its nodes are (theory, Theorem 19.8).
 fn check_link([a, b, c, d, e, f, g]: [u32; 7], first: &Nodes, second: &Nodes) -> Checked<()> {
-    ensure!(first.is_disjoint(second), "a link's bodies share a node");
+    ensure!(is_disjoint(first, second), "a link's bodies share a node");
     ensure!(
-        !first.contains(&g) && !second.contains(&g),
+        !first.contains(g) && !second.contains(g),
         "node {g} is in one of the two bodies that a link joins"
     );
     ensure!(
@@ -264,12 +312,46 @@ fn check_link([a, b, c, d, e, f, g]: [u32; 7], first: &Nodes, second: &Nodes) ->
     Ok(())
 }
 
-/// The smaller set goes into the larger one, so that all unions together take n log n steps.
-fn unite(nodes: &mut Nodes, parts: impl Iterator<Item = Nodes>) {
-    for mut part in parts {
-        if part.len() > nodes.len() {
-            std::mem::swap(nodes, &mut part);
+fn is_disjoint(a: &Nodes, b: &Nodes) -> bool {
+    let (few, many) = if a.0.len() < b.0.len() {
+        (a, b)
+    } else {
+        (b, a)
+    };
+    few.0
+        .iter()
+        .all(|(at, word)| many.0.get(at).is_none_or(|other| word & other == 0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Nodes, is_disjoint};
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn they_are_what_sets_are() {
+        // Some share words and no node, some a node; some have words of their own.
+        let sets = [
+            vec![],
+            vec![0, 63, 64, 500],
+            vec![1, 65],
+            vec![64],
+            (0..200).step_by(3).collect(),
+        ];
+        for (a, b) in sets.iter().flat_map(|a| sets.iter().map(move |b| (a, b))) {
+            let [mut nodes, other] = [a, b].map(|list| list.iter().copied().collect::<Nodes>());
+            let [mut set, more] =
+                [a, b].map(|list| list.iter().copied().collect::<BTreeSet<u32>>());
+            assert_eq!(
+                is_disjoint(&nodes, &other),
+                set.is_disjoint(&more),
+                "{a:?} {b:?}"
+            );
+            nodes.unite(other);
+            set.extend(more);
+            assert!((0..600).all(|node| nodes.contains(node) == set.contains(&node)));
+            assert_eq!(nodes.list(), set.iter().copied().collect::<Vec<_>>());
+            assert!((0..600).all(|node| nodes.insert(node) == set.insert(node)));
         }
-        nodes.extend(part);
     }
 }

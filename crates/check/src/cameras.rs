@@ -58,24 +58,8 @@ impl Stream {
 /// One block (RFC 8439, section 2.3, with a counter of 64 bits, nonce zero): twenty rounds, then
 /// the start is added.
 fn block(key: &[u32; 8], counter: u64) -> [u64; 8] {
-    let mut start = [
-        0x6170_7865,
-        0x3320_646e,
-        0x7962_2d32,
-        0x6b20_6574,
-        0,
-        0,
-        0,
-        0,
-        0,
-        0,
-        0,
-        0,
-        0,
-        0,
-        0,
-        0,
-    ];
+    let mut start = [0; 16];
+    start[..4].copy_from_slice(&[0x6170_7865, 0x3320_646e, 0x7962_2d32, 0x6b20_6574]);
     start[4..12].copy_from_slice(key);
     (start[12], start[13]) = (counter as u32, (counter >> 32) as u32);
     let mut state = start;

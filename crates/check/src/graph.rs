@@ -54,22 +54,21 @@ impl Graph {
             (0..nodes).for_each(|i| start[i + 1] += start[i]);
             start
         };
-        let mut start = starts(&edges);
-        if !edges.is_sorted_by(|a, b| a < b) {
+        let falls = edges.windows(2).filter(|two| two[0] > two[1]).count();
+        if falls > edges.len() / 8 {
             // Those of each first node, in the order of the file: in tracks that sorts them.
-            let (mut next, mut sorted) = (start.clone(), vec![[0, 0]; edges.len()]);
+            let (mut next, mut by_first) = (starts(&edges), vec![[0, 0]; edges.len()]);
             for edge in edges {
                 let place = &mut next[edge[0] as usize];
-                sorted[*place] = edge;
+                by_first[*place] = edge;
                 *place += 1;
             }
-            for range in start.windows(2) {
-                sorted[range[0]..range[1]].sort_unstable();
-            }
-            sorted.dedup();
-            start = starts(&sorted);
-            edges = sorted;
+            edges = by_first;
         }
+        // Runs that are sorted already are merged.
+        edges.sort();
+        edges.dedup();
+        let start = starts(&edges);
         Ok(Graph {
             pairs: edges,
             start,
@@ -81,26 +80,6 @@ impl Graph {
         })
     }
 
-    /// The same graph with known displacements, which their hash names (section 3 of the
-    /// specification; lower-case hexadecimal digits), in the place of those it has.
-    pub fn with_displacements(mut self, sha256: impl Into<String>) -> Graph {
-        self.displacements = Some(sha256.into());
-        self
-    }
-
-    /// The same graph with displacements in a frame of their own, which their hash names (section 16 of the
-    /// specification; lower-case hexadecimal digits).
-    pub fn with_own_frame(mut self, sha256: impl Into<String>) -> Graph {
-        self.own_frame = Some(sha256.into());
-        self
-    }
-
-    /// The same graph, of which a certificate may suppose besides what it states, as if it held the graph itself.
-    pub fn as_stated(mut self) -> Graph {
-        self.as_stated = true;
-        self
-    }
-
     /// The number of nodes.
     pub fn nodes(&self) -> usize {
         self.start.len() - 1
@@ -110,7 +89,7 @@ impl Graph {
     pub(crate) fn edge(&self, [i, j]: Pair) -> Checked<usize> {
         let ends = self.start.get(i as usize..i as usize + 2);
         let (from, to) = ends.map_or((0, 0), |ends| (ends[0], ends[1]));
-        let offset = self.pairs[from..to].binary_search(&[i, j]);
+        let offset = self.pairs[from..to].binary_search_by_key(&j, |pair| pair[1]);
         let missing =
             |_| Failure::rejected(format!("[{i}, {j}] is not an edge (i < j) of the graph"));
         Ok(from + offset.map_err(missing)?)

@@ -20,13 +20,6 @@ pub(crate) enum Place {
     Drawn(u64),
 }
 
-/// The centres of a `kernel`, and what they are.
-struct Centres {
-    field: Field,
-    centres: Vec<[u64; 3]>,
-    place: Place,
-}
-
 /// Verifies `kernel`, for classes of which `owner` has that of each member; returns where it tells
 /// them apart (theory, Proposition 6.7, Theorems 6.8, 13.13 and 13.19).
 pub(crate) fn check_kernel(
@@ -40,11 +33,7 @@ pub(crate) fn check_kernel(
     if setting.model.in_plane() {
         return check_plane_kernel(kernel, setting, core, (owner, classes));
     }
-    let Centres {
-        field,
-        centres,
-        place,
-    } = centres(kernel, setting, core, drawn)?;
+    let (field, centres, place) = centres(kernel, setting, core, drawn)?;
     let columns = if setting.model.is_linear() { 1 } else { 4 };
     let vector = residues(kernel, 3 * columns * core.nodes, &field)?;
     let motion = |edge| {
@@ -67,9 +56,7 @@ fn check_plane_kernel(
     core: &Core,
     classes: (&[usize], usize),
 ) -> Checked<Place> {
-    let Kernel {
-        prime, seed, draw, ..
-    } = *kernel;
+    let (prime, seed, draw) = (kernel.prime, kernel.seed, kernel.draw);
     let field = Field::new(prime).within(|| "prime".into())?;
     let mut stream = Stream::new("draw", core.hashes(setting), seed, draw);
     let points = cameras::plane_points(&mut stream, &field, core.nodes)?;
@@ -108,30 +95,18 @@ fn centres(
     setting: &Setting,
     core: &Core,
     drawn: Option<&Drawn>,
-) -> Checked<Centres> {
-    let Kernel {
-        prime, seed, draw, ..
-    } = *kernel;
+) -> Checked<(Field, Vec<[u64; 3]>, Place)> {
+    let (prime, seed, draw) = (kernel.prime, kernel.seed, kernel.draw);
     let field = Field::new(prime).within(|| "prime".into())?;
     if drawn.is_some_and(|drawn| drawn.seed == seed && drawn.numbers.contains(&draw)) {
         let (own, centres) = own_centres(setting, seed, draw, core)?;
         if own.p == prime {
-            let place = Place::Drawn(draw);
-            return Ok(Centres {
-                field,
-                centres,
-                place,
-            });
+            return Ok((field, centres, Place::Drawn(draw)));
         }
     }
     let mut stream = Stream::new("draw", core.hashes(setting), seed, draw);
     let centres = cameras::centres(&mut stream, &field, &core.places)?;
-    let place = Place::Named((prime, seed, draw));
-    Ok(Centres {
-        field,
-        centres,
-        place,
-    })
+    Ok((field, centres, Place::Named((prime, seed, draw))))
 }
 
 /// The entries of the vector, of which there are `width`.

@@ -34,22 +34,13 @@ pub(crate) fn jacobian<R: Ring>(
     cameras: &[Camera<R::E>],
     row: usize,
 ) -> Vec<(usize, R::E)> {
-    const VECH: [(usize, usize); 10] = [
-        (0, 0),
-        (1, 0),
-        (2, 0),
-        (3, 0),
-        (1, 1),
-        (2, 1),
-        (3, 1),
-        (2, 2),
-        (3, 2),
-        (3, 3),
-    ];
+    // The entries of a symmetric matrix, column after column.
+    const ROWS: [usize; 10] = [0, 1, 2, 3, 1, 2, 3, 2, 3, 3];
+    const COLUMNS: [usize; 10] = [0, 0, 0, 0, 1, 1, 1, 2, 2, 3];
     let (i, j) = edges[row / 10];
     let (p, q) = (&cameras[i], &cameras[j]);
     let f = fundamental(ring, p, q);
-    let (a, b) = VECH[row % 10];
+    let (a, b) = (ROWS[row % 10], COLUMNS[row % 10]);
     let mut entries = Vec::with_capacity(12);
     for r in 0..3 {
         let m = |column: usize| dot(ring, q.map(|row| row[column]), f.map(|row| row[r]));

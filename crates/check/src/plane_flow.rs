@@ -24,33 +24,22 @@ pub(crate) fn check_plane_flow(
     setting: &Setting,
     core: &Core,
 ) -> Checked<Lower> {
-    let PlaneFlow {
-        prime,
-        seed,
-        draw,
-        rows,
-        ..
-    } = evidence;
-    let field = &Field::new(*prime)?;
-    let mut stream = Stream::new("draw", core.hashes(setting), *seed, *draw);
+    let (prime, seed, draw) = (evidence.prime, evidence.seed, evidence.draw);
+    let field = &Field::new(prime)?;
+    let mut stream = Stream::new("draw", core.hashes(setting), seed, draw);
     let centres = &cameras::centres(&mut stream, field, &core.places)?;
     let flows = Flows::new(evidence, setting, core, field, centres)?;
-    let stream = Stream::new("flow", core.hashes(setting), *seed, *draw);
+    let stream = Stream::new("flow", core.hashes(setting), seed, draw);
     let lambda = flows.lambda(evidence, stream)?;
-    let (a, b, m) = (
-        rows.len() as i64,
-        lambda.len() as i64,
-        core.edges.len() as i64,
-    );
+    let [a, b, m] = [evidence.rows.len(), lambda.len(), core.edges.len()].map(|size| size as i64);
     Dense::new(field, setting.meter, lambda, 0).within(|| "Lambda".into())?;
     let rank = match setting.model {
         Model::Projective => 4 * a + b - m,
         _ => a,
     };
-    let at = Some((*prime, *seed, *draw));
     Ok(Lower {
         rank,
-        at,
+        at: Some((prime, seed, draw)),
         note: None,
     })
 }
@@ -129,26 +118,22 @@ impl<'a> Flows<'a> {
     /// Computes all flows, and of Lambda the pivot rows in the pivot columns. As many flows are
     /// kept at a time as `BATCH_ENTRIES` allows.
     fn lambda(&self, evidence: &PlaneFlow, mut stream: Stream) -> Checked<Vec<Vec<u64>>> {
-        let PlaneFlow {
-            flows,
-            lambda_rows,
-            lambda_cols,
-            ..
-        } = evidence;
+        let (flows, columns) = (evidence.flows, &evidence.lambda_cols);
         let size = [4 * flows, self.core.edges.len()];
-        let pivots = Pivots::new(lambda_rows, lambda_cols, size).within(|| "Lambda".into())?;
+        let pivots = Pivots::new(&evidence.lambda_rows, columns, size);
+        let pivots = pivots.within(|| "Lambda".into())?;
         // Pivots by their rows: flow after flow.
         let mut order: Vec<(usize, usize)> = pivots.rows.iter().copied().zip(0..).collect();
         order.sort_unstable();
         let mut rest: &[(usize, usize)] = &order;
         let mut lambda = vec![Vec::new(); order.len()];
         let batch = (BATCH_ENTRIES / self.n.len().max(1)).clamp(1, 256);
-        for first in (0..*flows).step_by(batch) {
-            let numbers = first..(first + batch).min(*flows);
+        for first in (0..flows).step_by(batch) {
+            let numbers = first..(first + batch).min(flows);
             let mut all = self.next_flows(numbers, &mut stream, &mut rest);
             for_all(&mut all, |flows| {
                 for together in flows.chunks_mut(TOGETHER) {
-                    if let Err(failure) = self.complete(together, lambda_cols) {
+                    if let Err(failure) = self.complete(together, columns) {
                         together[0].rows = Err(failure);
                     }
                 }

@@ -16,19 +16,19 @@ use std::collections::HashMap;
 /// known parts and bodies; that of a loose edge is the length of this list plus the edge's number.
 pub(crate) type Part = Vec<usize>;
 
-const NONE: usize = usize::MAX;
-const SEVERAL: usize = usize::MAX - 1;
+const NONE: u32 = u32::MAX;
+const SEVERAL: u32 = u32::MAX - 1;
 
 /// The final bodies in which each node lies, in increasing order.
 struct BodiesOfNodes {
     /// The only one of each node, `NONE` or `SEVERAL`.
-    only: Vec<usize>,
+    only: Vec<u32>,
     /// All of each node that lies in several.
-    several: HashMap<u32, Vec<usize>>,
+    several: HashMap<u32, Vec<u32>>,
 }
 
 impl BodiesOfNodes {
-    fn list(&self, node: u32) -> &[usize] {
+    fn list(&self, node: u32) -> &[u32] {
         match &self.only[node as usize] {
             &NONE => &[],
             &SEVERAL => &self.several[&node],
@@ -68,7 +68,7 @@ impl<'a> Structure<'a> {
             unique: bodies.iter().map(unique).collect(),
             bodies: bodies
                 .into_iter()
-                .map(|body| body.map(|body| sorted(body.nodes)))
+                .map(|body| body.map(|body| body.nodes.list()))
                 .collect(),
             everything: Part::new(),
         };
@@ -102,8 +102,8 @@ impl<'a> Structure<'a> {
 
     fn bodies_of_nodes(&self) -> BodiesOfNodes {
         let mut only = vec![NONE; self.graph.nodes()];
-        let mut several: HashMap<u32, Vec<usize>> = HashMap::new();
-        for (k, nodes) in self.bodies.iter().enumerate() {
+        let mut several: HashMap<u32, Vec<u32>> = HashMap::new();
+        for (nodes, k) in self.bodies.iter().zip(0..) {
             for &node in nodes.iter().flatten() {
                 match std::mem::replace(&mut only[node as usize], SEVERAL) {
                     NONE => only[node as usize] = k,

@@ -671,34 +671,13 @@ fn s19_rows_of_a_chain_that_are_dependent() {
 /// implementation of (10.1) to (10.3).
 #[test]
 fn s20_to_s22_points_with_a_fault() {
-    let centres = |values: [[u64; 3]; 10]| {
-        let values = values.map(|centre| centre.map(|entry| entry.to_string()));
+    let centres = |digits: &str| {
+        let centre = |three: &str| three.chars().map(String::from).collect::<Vec<_>>();
+        let values: Vec<_> = digits.split(' ').map(centre).collect();
         json!({"prime": "5", "values": values})
     };
-    let first = centres([
-        [0, 0, 2],
-        [2, 1, 3],
-        [4, 2, 1],
-        [0, 4, 0],
-        [4, 1, 4],
-        [3, 1, 4],
-        [4, 0, 3],
-        [1, 2, 0],
-        [1, 4, 3],
-        [4, 1, 3],
-    ]);
-    let second = centres([
-        [3, 0, 0],
-        [2, 4, 3],
-        [0, 2, 1],
-        [4, 4, 3],
-        [2, 2, 1],
-        [4, 1, 2],
-        [1, 1, 2],
-        [0, 2, 0],
-        [3, 0, 4],
-        [2, 1, 3],
-    ]);
+    let first = centres("002 213 421 040 414 314 403 120 143 413");
+    let second = centres("300 243 021 443 221 412 112 020 304 213");
     for (centres, point, wanted) in [
         (&first, ["1", "1", "1", "1"], "the point is not simple"),
         (

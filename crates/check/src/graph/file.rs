@@ -26,7 +26,7 @@ const PAIRS: &str = "a line is a pair of node numbers, with a single blank or ta
                      one number (`verify convert` writes such a file)";
 
 /// The lines without their ends, with their numbers.
-fn lines(file: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
+pub(super) fn lines(file: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
     let lines = file.split_inclusive(|&byte| byte == b'\n');
     (1..).zip(lines.map(|line| match line.strip_suffix(b"\n") {
         Some(line) => line.strip_suffix(b"\r").unwrap_or(line),
@@ -34,39 +34,45 @@ fn lines(file: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
     }))
 }
 
-/// The lines that are no comments.
-pub(super) fn lines_of_numbers(file: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
-    lines(file).filter(|(_, line)| !line.starts_with(b"#"))
-}
-
-/// The numbers of a line, `None` for what is none.
-pub(super) fn fields(line: &[u8]) -> impl Iterator<Item = Option<u32>> {
-    line.split(|byte| matches!(byte, b' ' | b'\t')).map(number)
-}
-
-/// A node: decimal digits without leading zeros, below 2^32 - 1.
-fn number(field: &[u8]) -> Option<u32> {
-    let is_short = matches!(field, [b'0'] | [b'1'..=b'9', ..]) && field.len() <= 10;
-    let digits = is_short.then_some(field)?;
-    let value = digits.iter().try_fold(0, |value, byte| {
-        let digit = byte.wrapping_sub(b'0');
-        (digit < 10).then_some(10 * value + u64::from(digit))
-    });
-    u32::try_from(value?).ok().filter(|&value| value < u32::MAX)
+/// A node at the start of a text, and what follows: decimal digits without leading zeros, below 2^32 - 1.
+pub(super) fn number(text: &[u8]) -> Option<(u32, &[u8])> {
+    let (mut value, mut length) = (0, 0);
+    while let Some(digit @ b'0'..=b'9') = text.get(length).filter(|_| length <= 10) {
+        value = 10 * value + u64::from(digit - b'0');
+        length += 1;
+    }
+    let is_number = length == 1 || length > 1 && text[0] != b'0';
+    let value = u32::try_from(value)
+        .ok()
+        .filter(|&value| is_number && value < u32::MAX)?;
+    Some((value, &text[length..]))
 }
 
 fn of_pairs(file: &[u8]) -> Result<Graph, Unreadable> {
     let (mut pairs, mut alone) = (Vec::new(), Vec::new());
-    for (number, line) in lines_of_numbers(file) {
-        let mut fields = fields(line);
-        match [fields.next(), fields.next(), fields.next()] {
-            [Some(Some(i)), Some(Some(j)), None] if i != j => pairs.push((i, j)),
-            [Some(Some(i)), None, None] => alone.push(i),
-            [Some(Some(i)), Some(Some(_)), None] => {
-                return Err(format!("line {number}: node {i} is paired with itself").into());
-            }
-            _ => return Err(format!("line {number}: {PAIRS}").into()),
+    let (mut text, mut line) = (file, 0);
+    while !text.is_empty() {
+        line += 1;
+        if text[0] == b'#' {
+            let end = text.iter().position(|&byte| byte == b'\n');
+            text = &text[end.map_or(text.len(), |end| end + 1)..];
+            continue;
         }
+        let wrong = || format!("line {line}: {PAIRS}");
+        let (i, mut rest) = number(text).ok_or_else(wrong)?;
+        if let [b' ' | b'\t', second @ ..] = rest {
+            let (j, end) = number(second).ok_or_else(wrong)?;
+            ensure!(i != j, "line {line}: node {i} is paired with itself");
+            pairs.push((i, j));
+            rest = end;
+        } else {
+            alone.push(i);
+        }
+        text = match rest {
+            [] => rest,
+            [b'\n', text @ ..] | [b'\r', b'\n', text @ ..] => text,
+            _ => return Err(wrong().into()),
+        };
     }
     let nodes = count_nodes(&pairs, &alone)?;
     let listed = pairs.len();

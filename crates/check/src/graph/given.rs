@@ -2,10 +2,30 @@
 //! specification).
 
 use super::Graph;
-use super::file::{fields, lines_of_numbers};
+use super::file::{lines, number};
 use crate::rejection::{Checked, Unreadable, ensure};
 
 impl Graph {
+    /// The same graph with known displacements, which their hash names (section 3 of the
+    /// specification; lower-case hexadecimal digits), in the place of those it has.
+    pub fn with_displacements(mut self, sha256: impl Into<String>) -> Graph {
+        self.displacements = Some(sha256.into());
+        self
+    }
+
+    /// The same graph with displacements in a frame of their own, which their hash names (section 16 of the
+    /// specification; lower-case hexadecimal digits).
+    pub fn with_own_frame(mut self, sha256: impl Into<String>) -> Graph {
+        self.own_frame = Some(sha256.into());
+        self
+    }
+
+    /// The same graph, of which a certificate may suppose besides what it states, as if it held the graph itself.
+    pub fn as_stated(mut self) -> Graph {
+        self.as_stated = true;
+        self
+    }
+
     /// The same graph with known parts, in the place of those it has. What comes again counts once;
     /// parts of fewer than two nodes are left out.
     ///
@@ -119,6 +139,21 @@ impl Graph {
         ensure!(graph.parts.len() == listed, "a known part occurs twice");
         Ok(graph)
     }
+}
+
+/// The lines that are no comments.
+fn lines_of_numbers(file: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
+    lines(file).filter(|(_, line)| !line.starts_with(b"#"))
+}
+
+/// The numbers of a line, `None` for what is none.
+fn fields(line: &[u8]) -> impl Iterator<Item = Option<u32>> {
+    let fields = line.split(|byte| matches!(byte, b' ' | b'\t'));
+    fields.map(|field| {
+        number(field)
+            .filter(|(_, rest)| rest.is_empty())
+            .map(|(node, _)| node)
+    })
 }
 
 /// The hash behind the first word of a line.
