@@ -6,8 +6,9 @@
 //! member, b by another. In a tripod a node is joined to a body by one member, and by two ways of two
 //! members; if both ways end in one node, that is a K_{2,3}. In a link two bodies are joined by two
 //! members, and by a way of two. That members differ and that ways are in general position follows
-//! from what goes in (Propositions 10.12 and 19.9). A member
-//! is used by one merge a call; whoever calls closes under the other rules again and comes back.
+//! from what goes in (Propositions 10.12 and 19.9). A call uses a member in one merge only, but for the body
+//! that finds the others: it grows by many, as long as they lie outside of what it has grown to. Whoever calls
+//! closes under the other rules again and comes back.
 
 use super::body::{Body, Merge, Part, Seed};
 use crate::graph::{Graph, Lists, prune_leaves};
@@ -59,31 +60,34 @@ pub(super) fn merge(
     }
     let Search { part, found, .. } = search;
     let members = part.len() as u32;
-    for found in &found {
-        let node = |place: u32| place - members;
-        let [first, rest @ ..] = found.members.map(|member| part[member as usize]);
-        let merge = match found.at {
-            At::Biclique(at) => Merge::Biclique {
-                parts: rest,
-                at: at.map(node),
-            },
-            At::Tripod(at) => Merge::Tripod {
-                parts: rest,
-                at: at.map(node),
-            },
-            At::Link(at) => Merge::Link {
-                parts: rest,
-                at: at.map(node),
-            },
-        };
-        let body = merged(bodies, first, merge);
+    let node = |place: u32| place - members;
+    for found in found.chunk_by(|one, other| one.members[0] == other.members[0]) {
+        let merges = found.iter().map(|found| {
+            let [_, parts @ ..] = found.members.map(|member| part[member as usize]);
+            match found.at {
+                At::Biclique(at) => Merge::Biclique {
+                    parts,
+                    at: at.map(node),
+                },
+                At::Tripod(at) => Merge::Tripod {
+                    parts,
+                    at: at.map(node),
+                },
+                At::Link(at) => Merge::Link {
+                    parts,
+                    at: at.map(node),
+                },
+            }
+        });
+        let first = part[found[0].members[0] as usize];
+        let body = merged(bodies, first, merges.collect());
         bodies.push(body);
     }
     !found.is_empty()
 }
 
 /// The body of a part and those that are merged with it, which are taken from the list.
-fn merged(bodies: &mut [Body], first: Part, merge: Merge) -> Body {
+fn merged(bodies: &mut [Body], first: Part, merge: Vec<Merge>) -> Body {
     let mut take = |part: Part| match part {
         Part::Edge(i, j) => (vec![i, j], 0),
         Part::Body(k) => {
@@ -93,7 +97,7 @@ fn merged(bodies: &mut [Body], first: Part, merge: Merge) -> Body {
         }
     };
     let (mut nodes, mut edges) = take(first);
-    for &part in merge.parts() {
+    for &part in merge.iter().flat_map(Merge::parts) {
         let (more, covered) = take(part);
         nodes.extend(more);
         edges += covered;
@@ -104,7 +108,7 @@ fn merged(bodies: &mut [Body], first: Part, merge: Merge) -> Body {
         Part::Body(k) => Seed::Body(k),
     };
     Body {
-        merge: vec![merge],
+        merge,
         ..Body::new(seed, nodes, edges)
     }
 }
@@ -138,6 +142,8 @@ struct Search<'a> {
     /// The shared nodes of every member, the members at every node; without what lies on no cycle.
     incidence: Lists,
     used: Vec<bool>,
+    /// For every node the body that last took it in.
+    taken: Vec<u32>,
     found: Vec<Found>,
     steps: &'a Steps,
     /// Whether a body is searched by larger ones only.
@@ -176,6 +182,7 @@ impl<'a> Search<'a> {
         Self {
             bodies: members - loose.len(),
             used: vec![false; members],
+            taken: vec![u32::MAX; nodes],
             part,
             incidence,
             found: Vec::new(),
@@ -192,11 +199,25 @@ impl<'a> Search<'a> {
         !self.used[member as usize]
     }
 
-    /// Enters what was found, if none of the members is used.
+    /// Enters what was found, if none of the others is used and what has to be outside of the first still is.
     fn accept(&mut self, found: Found) {
-        if found.members.iter().all(|&member| self.is_free(member)) {
+        let (places, [first, others @ ..]) = (self.part.len(), found.members);
+        let is_outside = |&x: &u32| self.taken[x as usize - places] != first;
+        let are_outside = match found.at {
+            At::Biclique([_, b, _, v, w]) | At::Tripod([.., b, v, w]) => {
+                [b, v, w].iter().all(is_outside)
+            }
+            At::Link([.., g]) => self.of(others[0]).iter().chain([&g]).all(is_outside),
+        };
+        if are_outside && others.iter().all(|&member| self.is_free(member)) {
             for member in found.members {
                 self.used[member as usize] = true;
+            }
+            for &x in others
+                .iter()
+                .flat_map(|&member| self.incidence.of(member as usize))
+            {
+                self.taken[x as usize - places] = first;
             }
             self.found.push(found);
         }
@@ -208,23 +229,21 @@ impl<'a> Search<'a> {
         order.sort_by_key(|&body| std::cmp::Reverse(self.of(body).len()));
         let mut reached = vec![None; self.incidence.len() - self.part.len()];
         for body in order {
-            if self.is_free(body)
-                && let Some(found) = self.around(body, &mut reached)
-            {
-                self.accept(found);
+            if self.is_free(body) {
+                self.around(body, &mut reached);
             }
         }
     }
 
-    /// A K_{2,3} in which the body holds a and the first of the three, a tripod on it, or a link.
+    /// Every K_{2,3} in which the body holds a and the first of the three, every tripod on it, and every link.
     ///
     /// A node outside that touches the body through a member does so through one member and at one
     /// node only: anything else would be two members that share two nodes, or a triangle.
-    fn around(&self, body: u32, reached: &mut [Option<Reach>]) -> Option<Found> {
+    fn around(&mut self, body: u32, reached: &mut [Option<Reach>]) {
         let members = self.part.len();
         let size = self.of(body).len();
         if !self.steps.take(size) {
-            return None;
+            return;
         }
         let joins = |search: &Self, member: u32| {
             let fits = !search.is_limited || search.of(member).len() <= size;
@@ -253,51 +272,40 @@ impl<'a> Search<'a> {
                     .map(|&member| (member, x)),
             );
         }
-        let found = if self.steps.take(cost) {
+        if self.steps.take(cost) {
             far.sort_unstable();
-            self.two_squares(body, &far, reached)
-                .or_else(|| self.link(body, &far, reached))
-        } else {
-            None
-        };
+            self.two_squares(body, &far, reached);
+            self.links(body, &far, reached);
+        }
         for (x, _) in layer {
             reached[x as usize - members] = None;
         }
-        found
     }
 
     /// Two cycles of four around the body through the same node outside. `far` lists the members
     /// opposite to it with their nodes, in order.
-    fn two_squares(
-        &self,
-        body: u32,
-        far: &[(u32, u32)],
-        reached: &[Option<Reach>],
-    ) -> Option<Found> {
-        let reach = |x: u32| reached[x as usize - self.part.len()];
+    fn two_squares(&mut self, body: u32, far: &[(u32, u32)], reached: &[Option<Reach>]) {
+        let members = self.part.len();
+        let reach = |x: u32| reached[x as usize - members];
         // For a node outside the next one on the first such cycle, and the member between them.
         let mut squares: HashMap<u32, (u32, u32)> = HashMap::new();
         for opposite in far.chunk_by(|one, other| one.0 == other.0) {
             if !self.steps.take(opposite.len() * opposite.len()) {
-                return None;
+                return;
             }
-            for &(member, b) in opposite {
-                for &(_, v) in opposite {
-                    let (at_b, at_v) = (reach(b)?, reach(v)?);
-                    if at_b.from == at_v.from {
-                        continue;
-                    }
-                    let Some(&(w, other)) = squares.get(&b) else {
-                        squares.insert(b, (v, member));
+            let ends = opposite.iter().filter_map(|&(_, x)| Some((x, reach(x)?)));
+            for (b, at_b) in ends.clone() {
+                for (v, at_v) in ends.clone().filter(|(_, at)| at.from != at_b.from) {
+                    let member = opposite[0].0;
+                    let Some((w, other)) =
+                        squares.insert(b, (v, member)).filter(|last| last.0 != v)
+                    else {
                         continue;
                     };
-                    if w == v {
-                        continue;
-                    }
-                    let at_w = reach(w)?;
+                    let Some(at_w) = reach(w) else { continue };
                     let (from, [x, y]) = (at_b.from, [at_v.from, at_w.from]);
                     let [to_b, to_v, to_w] = [at_b, at_v, at_w].map(|at| at.member);
-                    return Some(if x == y {
+                    self.accept(if x == y {
                         Found {
                             members: [body, to_b, to_v, member, to_w, other],
                             at: At::Biclique([x, b, from, v, w]),
@@ -311,42 +319,46 @@ impl<'a> Search<'a> {
                 }
             }
         }
-        None
     }
 
-    /// A body with two nodes that touch this one, and a way of two members between both.
-    fn link(&self, body: u32, far: &[(u32, u32)], reached: &[Option<Reach>]) -> Option<Found> {
-        let reach = |x: u32| reached[x as usize - self.part.len()];
+    /// Bodies with two nodes that touch this one, and a way of two members between both.
+    fn links(&mut self, body: u32, far: &[(u32, u32)], reached: &[Option<Reach>]) {
         for opposite in far.chunk_by(|one, other| one.0 == other.0) {
-            let &[(other, d), (_, e)] = opposite else {
-                continue;
-            };
-            if other as usize >= self.bodies {
-                continue;
+            if !self.steps.take(1) {
+                return;
             }
-            let [to_d, to_e] = [reach(d)?, reach(e)?];
-            for &f in self.of(other) {
-                if !self.steps.take(self.of(f).len()) {
-                    return None;
+            if let &[(other, d), (_, e)] = opposite
+                && (other as usize) < self.bodies
+                && let Some(found) = self.link([body, other, d, e], reached)
+            {
+                self.accept(found);
+            }
+        }
+    }
+
+    fn link(&self, [body, other, d, e]: [u32; 4], reached: &[Option<Reach>]) -> Option<Found> {
+        let reach = |x: u32| reached[x as usize - self.part.len()];
+        let [to_d, to_e] = [reach(d)?, reach(e)?];
+        for &f in self.of(other) {
+            if !self.steps.take(self.of(f).len()) {
+                return None;
+            }
+            for &last in self.of(f) {
+                if last == other || !self.is_free(last) || !self.steps.take(self.of(last).len()) {
+                    continue;
                 }
-                for &last in self.of(f) {
-                    if last == other || !self.is_free(last) || !self.steps.take(self.of(last).len())
-                    {
-                        continue;
-                    }
-                    let ends = self.of(last).iter().filter(|&&g| g != f);
-                    let ends = ends.filter_map(|&g| Some((g, reach(g)?)));
-                    // A member that touches the body itself is a way of one, and no node of a layer
-                    // is in this body.
-                    let mut ends = ends.filter(|(_, at)| {
-                        at.member != last && ![to_d.member, to_e.member].contains(&at.member)
+                let ends = self.of(last).iter().filter(|&&g| g != f);
+                let ends = ends.filter_map(|&g| Some((g, reach(g)?)));
+                // A member that touches the body itself is a way of one, and no node of a layer
+                // is in this body.
+                let mut ends = ends.filter(|(_, at)| {
+                    at.member != last && ![to_d.member, to_e.member].contains(&at.member)
+                });
+                if let Some((g, at)) = ends.next() {
+                    return Some(Found {
+                        members: [body, other, to_d.member, to_e.member, at.member, last],
+                        at: At::Link([to_d.from, to_e.from, at.from, d, e, f, g]),
                     });
-                    if let Some((g, at)) = ends.next() {
-                        return Some(Found {
-                            members: [body, other, to_d.member, to_e.member, at.member, last],
-                            at: At::Link([to_d.from, to_e.from, at.from, d, e, f, g]),
-                        });
-                    }
                 }
             }
         }

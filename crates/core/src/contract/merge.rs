@@ -2,8 +2,9 @@
 
 use super::body::{Body, Merge, Part, Seed};
 use super::position::Position;
-use crate::graph::{Adjacency, Lists};
-use std::collections::{HashMap, HashSet, VecDeque};
+use crate::graph::{Adjacency, Lists, sort_once};
+use std::collections::{HashMap, HashSet};
+use std::ops::Range;
 
 /// A node may be a hub with more bodies and edges around it than so many; tests have no large graphs.
 const HUB: usize = if cfg!(test) { 3 } else { 64 };
@@ -71,27 +72,38 @@ impl Owners {
 ///
 /// Bodies are taken by falling size, round after round until nothing changes. Of
 /// three bodies that pairwise share a node the largest finds the other two, so a body
-/// is only ever searched by larger ones that touch it.
+/// is only ever searched by larger ones that touch it. Without the bodies that are `new` no rule applies. So
+/// only they are taken, and larger ones that touch them.
 ///
 /// A body does not search around its hub, where all others would search the same. Two parts that touch it are found
 /// from its other nodes, or one of them is, and the hub knows whether the other meets that one. A hub knows what
 /// was around it when the round began to ask, so what merged since may wait for the next round.
 pub(super) fn close(
     bodies: &mut Vec<Body>,
+    mut new: Range<u32>,
     remaining: &Adjacency,
     nodes: usize,
     at: &impl Position,
 ) -> Owners {
     let mut owners = Owners::new(nodes, bodies);
     let mut inside = vec![u32::MAX; nodes];
-    let mut changed = true;
     let mut stamp = 0;
-    while changed {
-        changed = false;
-        let mut order: Vec<u32> = (0..bodies.len() as u32)
-            .filter(|&k| !bodies[k as usize].nodes.is_empty())
-            .collect();
-        order.sort_by_key(|&k| std::cmp::Reverse(bodies[k as usize].nodes.len()));
+    while !new.is_empty() {
+        let size = |k: u32| bodies[k as usize].nodes.len();
+        let mut order: Vec<u32> = new.filter(|&k| size(k) > 0).collect();
+        order.sort_by_key(|&k| size(k));
+        for k in order.clone() {
+            // The smallest body looks around a node for all of them.
+            for &v in &bodies[k as usize].nodes {
+                if std::mem::replace(&mut inside[v as usize], stamp) != stamp {
+                    order.extend(owners.of(v).filter(|&l| size(l) > size(k)));
+                }
+            }
+        }
+        stamp += 1;
+        sort_once(&mut order);
+        order.sort_by_key(|&k| std::cmp::Reverse(size(k)));
+        let before = bodies.len() as u32;
         let mut hubs = Hubs::default();
         for k in order {
             if bodies[k as usize].nodes.is_empty() {
@@ -107,7 +119,6 @@ pub(super) fn close(
                 hub: None,
                 stamp,
                 nodes: Vec::new(),
-                queue: VecDeque::new(),
                 consumed: vec![k],
                 edges: 0,
                 touched: HashMap::new(),
@@ -116,8 +127,9 @@ pub(super) fn close(
                 brought_in: Vec::new(),
             };
             stamp += 1;
-            changed |= absorption.run(k);
+            absorption.run(k);
         }
+        new = before..bodies.len() as u32;
     }
     for k in 0..bodies.len() as u32 {
         owners.find(k);
@@ -149,8 +161,6 @@ struct Absorption<'a, P> {
     stamp: u32,
     /// Nodes of the body; grows.
     nodes: Vec<u32>,
-    /// Nodes whose surroundings are still to be searched.
-    queue: VecDeque<u32>,
     /// The body itself and those absorbed.
     consumed: Vec<u32>,
     /// Edges that these cover.
@@ -166,21 +176,22 @@ struct Absorption<'a, P> {
 }
 
 impl<P: Position> Absorption<'_, P> {
-    /// Runs to the end; if anything was absorbed, appends the new body. Returns
-    /// whether it was.
-    fn run(&mut self, k: u32) -> bool {
+    /// Runs to the end; if anything was absorbed, appends the new body.
+    fn run(&mut self, k: u32) {
         let own = std::mem::take(&mut self.bodies[k as usize].nodes);
         self.take_in(&own);
         self.hub = self.find_hub(&own);
-        while let Some(a) = self.queue.pop_front() {
-            if self.hub != Some(a) {
+        let mut searched = 0;
+        while let Some(&a) = self.nodes.get(searched) {
+            searched += 1;
+            if self.hub != Some(a) && self.is_shared(a) {
                 self.search(a);
             }
         }
         let nodes = std::mem::take(&mut self.nodes);
         if self.merges.is_empty() {
             self.bodies[k as usize].nodes = nodes;
-            return false;
+            return;
         }
         let new = self.bodies.len() as u32;
         let edges = self.edges + std::mem::take(&mut self.bodies[k as usize].edges);
@@ -195,7 +206,6 @@ impl<P: Position> Absorption<'_, P> {
             merge: std::mem::take(&mut self.merges),
             ..Body::new(Seed::Body(k), nodes, edges)
         });
-        true
     }
 
     fn find_hub(&self, nodes: &[u32]) -> Option<u32> {
@@ -209,12 +219,16 @@ impl<P: Position> Absorption<'_, P> {
         self.inside[v as usize] == self.stamp
     }
 
+    /// Whether more than one body or edge is around a node, where others may meet.
+    fn is_shared(&self, v: u32) -> bool {
+        self.owners.first.of(v as usize).len() > 1 || self.remaining.degree(v) > 0
+    }
+
     fn take_in(&mut self, nodes: &[u32]) {
         for &v in nodes {
             if !self.is_inside(v) {
                 self.inside[v as usize] = self.stamp;
                 self.nodes.push(v);
-                self.queue.push_back(v);
             }
         }
     }
@@ -274,7 +288,7 @@ impl<P: Position> Absorption<'_, P> {
             let Some(&x) = self.bodies[k as usize].nodes.get(at) else {
                 break;
             };
-            if x == a {
+            if x == a || !self.is_shared(x) {
                 continue;
             }
             if self.is_inside(x) {

@@ -176,7 +176,8 @@ impl Contraction {
     pub(crate) fn at(graph: &Graph, at: &impl Position) -> Self {
         let mut remaining = Adjacency::new(graph);
         let mut bodies = grow::grow(&mut remaining, at);
-        let owners = merge::close(&mut bodies, &remaining, graph.nodes(), at);
+        let all = 0..bodies.len() as u32;
+        let owners = merge::close(&mut bodies, all, &remaining, graph.nodes(), at);
         let (owned, loose) = by_owner(&owners, &remaining);
         for body in owned {
             bodies[body as usize].edges += 1;
@@ -192,8 +193,11 @@ impl Contraction {
         remaining: &Adjacency,
     ) -> Self {
         let steps = [(); 2].map(|()| bicliques::Steps::new(graph));
+        let mut closed = 0;
         loop {
-            let owners = merge::close(&mut bodies, remaining, graph.nodes(), &Generic);
+            let new = closed..bodies.len() as u32;
+            let owners = merge::close(&mut bodies, new, remaining, graph.nodes(), &Generic);
+            closed = bodies.len() as u32;
             let (owned, loose) = by_owner(&owners, remaining);
             // In a plane all planes through two centres are one.
             let bicliques = !model.is_linear();
