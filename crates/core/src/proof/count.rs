@@ -1,5 +1,6 @@
 //! What a proof counts in each model: the rank of a body, what joined nodes add, the rows of a pair.
 
+use crate::geometry::jacobian::VECH;
 use crate::geometry::model::Model;
 
 impl Model {
@@ -39,18 +40,7 @@ impl Model {
     /// an equation of J_P, minors of two displacements in N.
     pub(super) const fn entries(self) -> &'static [(usize, usize)] {
         match self {
-            Self::Projective => &[
-                (0, 0),
-                (0, 1),
-                (0, 2),
-                (0, 3),
-                (1, 1),
-                (1, 2),
-                (1, 3),
-                (2, 2),
-                (2, 3),
-                (3, 3),
-            ],
+            Self::Projective => &VECH,
             Self::Calibrated => &[(0, 1), (0, 2), (1, 2)],
             Self::Affine => &[(0, 1)],
         }

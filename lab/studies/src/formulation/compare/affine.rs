@@ -60,8 +60,24 @@ fn compare<F: RankField>(
     }
     let lines = |cameras: &[_]| {
         vec![
-            published(field, graph, cameras, limits),
-            directions(field, graph, cameras, limits),
+            // The published matrix: full column rank exactly where the cameras are unique.
+            line(
+                field,
+                ("affine", affine::SOURCE),
+                (["4m + 12", "8n"], affine::size(graph)),
+                limits,
+                || affine::matrix(field, graph, cameras),
+                |rank| (rank, 8 * graph.nodes()),
+            ),
+            // R, whose rank counts four times.
+            line(
+                field,
+                ("plane directions, x 4", "docs/theory.md, section 13"),
+                (["m", "2n"], directions_size(graph)),
+                limits,
+                || affine::directions(field, graph, cameras),
+                |rank| (4 * rank, Model::Affine.required(graph.nodes())),
+            ),
         ]
     };
     let mut sizes = [affine::size(graph), directions_size(graph)].into_iter();
@@ -95,61 +111,22 @@ fn directions_size(graph: &Graph) -> (usize, usize) {
     (graph.edges().len(), 2 * graph.nodes())
 }
 
-/// The published matrix: full column rank exactly where the cameras are unique.
-fn published<F: RankField>(
-    field: &F,
-    graph: &Graph,
-    cameras: &[AffineCamera<F::Elem>],
-    limits: &Limits,
-) -> Line {
-    let matrix = MatrixLine {
-        name: None,
-        formula: ["4m + 12", "8n"],
-        size: Some(affine::size(graph)),
-        found: None,
-    };
-    let rows = || affine::matrix(field, graph, cameras);
-    line(
-        field,
-        ("affine", affine::SOURCE),
-        matrix,
-        limits,
-        rows,
-        |rank| (rank, 8 * graph.nodes()),
-    )
-}
-
-/// R, whose rank counts four times.
-fn directions<F: RankField>(
-    field: &F,
-    graph: &Graph,
-    cameras: &[AffineCamera<F::Elem>],
-    limits: &Limits,
-) -> Line {
-    let matrix = MatrixLine {
-        name: None,
-        formula: ["m", "2n"],
-        size: Some(directions_size(graph)),
-        found: None,
-    };
-    let rows = || affine::directions(field, graph, cameras);
-    let name = ("plane directions, x 4", "docs/theory.md, section 13");
-    line(field, name, matrix, limits, rows, |rank| {
-        (4 * rank, Model::Affine.required(graph.nodes()))
-    })
-}
-
 /// Eliminates a matrix, unless it is too large. `decides` makes of its rank the rank that decides,
 /// and that of a solvable graph.
 fn line<F: RankField>(
     field: &F,
     (name, source): (&'static str, &'static str),
-    mut matrix: MatrixLine,
+    (formula, size): ([&'static str; 2], (usize, usize)),
     limits: &Limits,
     rows: impl Fn() -> SparseRows<F::Elem>,
     decides: impl Fn(usize) -> (usize, usize),
 ) -> Line {
-    let size = matrix.size.unwrap_or_default();
+    let mut matrix = MatrixLine {
+        name: None,
+        formula,
+        size: Some(size),
+        found: None,
+    };
     let mut found = None;
     if limits.admit(size.0.saturating_mul(size.1), name, size) {
         let start = Instant::now();
