@@ -41,9 +41,10 @@ impl Nodes {
     pub(crate) fn list(&self) -> Vec<u32> {
         let mut words: Vec<(&u32, &u64)> = self.0.iter().collect();
         words.sort_unstable();
-        let nodes = words.into_iter().flat_map(|(at, word)| {
-            let bits = (0..64).filter(move |bit| word >> bit & 1 == 1);
-            bits.map(move |bit| 64 * at + bit)
+        let nodes = words.into_iter().flat_map(|(at, &word)| {
+            let bits = std::iter::successors(Some(word), |left| Some(left & left.wrapping_sub(1)));
+            let bits = bits.take_while(|left| *left != 0);
+            bits.map(move |left| 64 * at + left.trailing_zeros())
         });
         nodes.collect()
     }
@@ -145,8 +146,8 @@ impl Builder<'_> {
             let held = self.earlier.get(body as usize).and_then(Option::as_ref);
             let wrong = || format!("body {body} is not an earlier one, or is consumed");
             let held = held.ok_or_else(|| Failure::rejected(wrong()))?;
+            meter.charge(64 * SPARSE * held.nodes.0.len() as u64)?;
             lists.push(held.nodes.list());
-            meter.charge(SPARSE * lists[lists.len() - 1].len() as u64)?;
         }
         for &pair in &members.edges {
             self.graph.edge(pair)?;

@@ -149,11 +149,8 @@ fn lines_of_numbers(file: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
 /// The numbers of a line, `None` for what is none.
 fn fields(line: &[u8]) -> impl Iterator<Item = Option<u32>> {
     let fields = line.split(|byte| matches!(byte, b' ' | b'\t'));
-    fields.map(|field| {
-        number(field)
-            .filter(|(_, rest)| rest.is_empty())
-            .map(|(node, _)| node)
-    })
+    let whole = |field| number(field).filter(|(_, rest)| rest.is_empty());
+    fields.map(move |field| Some(whole(field)?.0))
 }
 
 /// The hash behind the first word of a line.
