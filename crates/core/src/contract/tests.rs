@@ -682,6 +682,31 @@ fn tripods_and_links_by_hand() {
     assert_eq!(link(0, 4), 1);
     // Both ends are those of one pair: that is a triangle.
     assert_eq!(link(0, 3), 3 + 1);
+    // Three tripods on one body, and two links at once. A fourth tripod stands on a node of another one.
+    let ways = |v: u32, a: u32| [(a, v), (v, v + 1), (1, v + 1), (v, v + 2), (2, v + 2)];
+    let far = |v: u32| {
+        [
+            (v, v + 1),
+            (v, v + 2),
+            (v + 1, v + 2),
+            (0, v),
+            (1, v + 1),
+            (2, v + 3),
+            (v + 2, v + 3),
+        ]
+    };
+    let around = [ways(3, 0), ways(6, 0), ways(9, 0)].concat();
+    let around = [
+        with(&around),
+        far(12).to_vec(),
+        far(16).to_vec(),
+        ways(20, 4).to_vec(),
+    ]
+    .concat();
+    assert_eq!(finals(&around), 1);
+    let contraction = Contraction::new(&graph(23, &around), Model::Projective);
+    let most = contraction.bodies.iter().map(|body| body.merge.len()).max();
+    assert_eq!(most, Some(5), "{contraction:?}");
 }
 
 /// Pairs of different nodes below `nodes`.
@@ -779,6 +804,13 @@ proptest! {
         others in prop::collection::vec((4u32..26, 4u32..26), 0..16),
     ) {
         check(&among(26, pairs.into_iter().chain(others).collect()), Model::Calibrated);
+    }
+
+    /// A body of five nodes, and ways around it: many tripods and links of one body.
+    #[test]
+    fn ways_around_one_body(pairs in prop::collection::vec((0u32..27, 0u32..27), 30..60)) {
+        let body = [(0, 1), (0, 2), (1, 2), (0, 3), (1, 3), (0, 4), (1, 4)];
+        check(&among(27, body.into_iter().chain(pairs).collect()), Model::Projective);
     }
 
     /// Bodies at first, few edges between them: triangles that share nodes.
