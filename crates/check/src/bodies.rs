@@ -314,14 +314,11 @@ fn check_link([a, b, c, d, e, f, g]: [u32; 7], first: &Nodes, second: &Nodes) ->
 }
 
 fn is_disjoint(a: &Nodes, b: &Nodes) -> bool {
-    let (few, many) = if a.0.len() < b.0.len() {
-        (a, b)
-    } else {
-        (b, a)
-    };
-    few.0
-        .iter()
-        .all(|(at, word)| many.0.get(at).is_none_or(|other| word & other == 0))
+    let mut sets = [&a.0, &b.0];
+    sets.sort_by_key(|set| set.len());
+    let [few, many] = sets;
+    let is_free = |(at, word)| many.get(at).is_none_or(|other: &u64| word & other == 0);
+    few.iter().all(is_free)
 }
 
 #[cfg(test)]

@@ -136,7 +136,10 @@ pub(crate) fn expect_lambda<'w>(graph: &Graph, task: &Task<'w>) -> Result<Task<'
     // N has a kernel of dimension 4 at least: translations and the scale.
     let rank = (3 * graph.nodes()).saturating_sub(4);
     let flows = first_flows((2 * edges).saturating_sub(rank), columns);
-    reserve_lambda(&mut empty(task)?, flows, columns, &task.at(Step::Lambda))?;
+    let (lambda, mut memory) = (task.at(Step::Lambda), empty(task)?);
+    reserve_lambda(&mut memory, flows, columns, &lambda)?;
+    let bytes = matrix_bytes(flows, 2 * edges);
+    lambda.reserve(bytes, format_args!("{flows} flows beside Lambda"))?;
     Ok(task.followed_by(Some(elimination_products(4 * flows, columns))))
 }
 
