@@ -143,6 +143,11 @@ fn a_memory_limit_is_predicted() {
     for part in [&graph, "core of ", "Lambda (", "the limit is 1 GiB", so_far] {
         assert!(run.err.contains(part), "{part}: {}", run.err);
     }
+    // 13.4 GiB for Lambda, and 6.7 GiB for its flows.
+    let (run, time) = timed(&[&graph, "--memory-limit", "16G"]);
+    assert!(run.code == 3 && time < LATE, "{time:?} {}", run.err);
+    let flows = "7503 flows beside Lambda would take";
+    assert!(run.err.contains(flows), "{}", run.err);
 }
 
 /// N of the calibrated model has no size that is known beforehand.
