@@ -293,10 +293,10 @@ impl<'a> Search<'a> {
             if !self.steps.take(opposite.len() * opposite.len()) {
                 return;
             }
+            let member = opposite[0].0;
             let ends = opposite.iter().filter_map(|&(_, x)| Some((x, reach(x)?)));
             for (b, at_b) in ends.clone() {
                 for (v, at_v) in ends.clone().filter(|(_, at)| at.from != at_b.from) {
-                    let member = opposite[0].0;
                     let Some((w, other)) =
                         squares.insert(b, (v, member)).filter(|last| last.0 != v)
                     else {
@@ -336,6 +336,7 @@ impl<'a> Search<'a> {
         }
     }
 
+    /// The first link to a body, whose nodes d and e touch this one.
     fn link(&self, [body, other, d, e]: [u32; 4], reached: &[Option<Reach>]) -> Option<Found> {
         let reach = |x: u32| reached[x as usize - self.part.len()];
         let [to_d, to_e] = [reach(d)?, reach(e)?];
